@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <set>
 #include <system_error>
 #include <utility>
 
@@ -114,31 +115,82 @@ void addRobot(const RobotSpec& spec, const std::string& base_folder, const Scene
   addSemantics(spec, robot, base_folder, options, parts);
 }
 
+// The bodies and pairs before anything is loaded; its bodies have no meshes.
+Scene outlineOf(const SceneParts& parts, const PairSelection& selection, const SceneSpec& spec) {
+  Scene scene;
+  scene.rigid = parts.rigid;
+  scene.defaults = spec.defaults;
+  scene.rules = selection.rules;
+  std::vector<std::pair<std::uint64_t, std::uint64_t>> filtered;
+  for (std::size_t i = 0; i < parts.sources.size(); ++i) {
+    SceneBody body = parts.sources[i];
+    body.pair_class = selection.classes[i];
+    if (selection.labels[i] != body.name) body.label = selection.labels[i];
+    scene.bodies.push_back(std::move(body));
+  }
+  for (const auto& [a, b] : selection.filtered) {
+    filtered.emplace_back(std::minmax(parts.sources[a].serial, parts.sources[b].serial));
+  }
+  std::sort(filtered.begin(), filtered.end());
+  scene.rules.filtered = std::make_shared<const decltype(filtered)>(std::move(filtered));
+  std::set<std::string> taken;
+  for (const SelectedPair& pair : selection.pairs) taken.insert(pair.name);
+  for (const SelectedPair& pair : selection.pairs) {
+    const std::string wanted = selection.labels[pair.source_a] + "/" + selection.labels[pair.source_b];
+    std::string name = pair.name.empty() ? wanted : pair.name;
+    for (int i = 2; pair.name.empty() && !taken.insert(name).second; ++i) name = wanted + "_" + std::to_string(i);
+    scene.pairs.push_back({name, pair.source_a, pair.source_b, pair.enabled, pair.settings});
+  }
+  return scene;
+}
+
 // "a/b, a/c and 3 more": the pairs that go with a body that could not be loaded.
-std::string lostPairs(const std::vector<SelectedPair>& pairs, std::size_t source) {
+std::string lostPairs(const Scene& outline, std::size_t body) {
   std::string text;
   std::size_t count = 0;
-  for (const SelectedPair& pair : pairs) {
-    if (pair.source_a != source && pair.source_b != source) continue;
-    if (count < kMostPairsListed) text += (count == 0 ? "" : ", ") + pair.name;
+  const auto add = [&](const std::string& name) {
+    if (count < kMostPairsListed) text += (count == 0 ? "" : ", ") + name;
     ++count;
+  };
+  for (const ScenePair& pair : outline.pairs) {
+    if (pair.body_a == body || pair.body_b == body) add(pair.name);
+  }
+  for (std::size_t other = 0; other < outline.bodies.size(); ++other) {
+    if (const auto pair = ruledPair(outline, body, other)) add(pair->name);
   }
   if (count > kMostPairsListed) text += " and " + std::to_string(count - kMostPairsListed) + " more";
   return count == 0 ? "no pairs are lost with it" : "pairs not served: " + text;
+}
+
+bool isOpen(const SceneBody& body) {
+  const std::vector<bool>& closed = body.mesh->topology().shell_is_closed;
+  return std::find(closed.begin(), closed.end(), false) != closed.end();
+}
+
+void noteOpen(Scene& scene, const SceneBody& body, const std::string& pairs) {
+  scene.problems.push_back({body.source, "body '" + body.name + "' is not closed: " + pairs +
+                                             " no normal force where its open surface is met (close "
+                                             "the mesh, see mesh_tool repair)"});
 }
 
 // An open surface has no inside, so nothing says how deep another body is in it.
 void noteOpenBodies(Scene& scene) {
   for (const ScenePair& pair : scene.pairs) {
     if (!pair.settings.effects.normal_force) continue;
-    for (const std::size_t index : {pair.body_a, pair.body_b}) {
-      const SceneBody& body = scene.bodies[index];
-      const std::vector<bool>& closed = body.mesh->topology().shell_is_closed;
-      if (std::find(closed.begin(), closed.end(), false) == closed.end()) continue;
-      scene.problems.push_back({body.source, "body '" + body.name + "' is not closed: pair '" + pair.name +
-                                                 "' has no normal force where its open surface is met (close "
-                                                 "the mesh, see mesh_tool repair)"});
+    for (const std::size_t body : {pair.body_a, pair.body_b}) {
+      if (isOpen(scene.bodies[body])) noteOpen(scene, scene.bodies[body], "pair '" + pair.name + "' has");
     }
+  }
+  std::vector<bool> has_force(scene.rules.classes, false);
+  for (std::size_t row = 0; row < scene.rules.classes; ++row) {
+    for (std::size_t column = 0; column < scene.rules.classes; ++column) {
+      const PairRule& rule = scene.rules.of(row, column);
+      if (!rule.is_watched || !settingsOf(scene, rule).effects.normal_force) continue;
+      has_force[row] = has_force[column] = true;
+    }
+  }
+  for (const SceneBody& body : scene.bodies) {
+    if (has_force[body.pair_class] && isOpen(body)) noteOpen(scene, body, "its pairs have");
   }
 }
 
@@ -173,21 +225,25 @@ Scene assemble(const SceneSpec& spec, SceneParts parts, const SceneLoadOptions& 
   scene.warnings = std::move(parts.warnings);
   scene.problems = std::move(parts.problems);
   scene.problems.insert(scene.problems.end(), selection.problems.begin(), selection.problems.end());
+  const Scene outline = outlineOf(parts, selection, spec);
+  scene.rules = outline.rules;
   std::vector<std::optional<std::size_t>> body_of_source(built.size());
   for (std::size_t i = 0; i < built.size(); ++i) {
     for (const std::string& note : built[i].notes) scene.notes.push_back(parts.sources[i].name + ": " + note);
     if (built[i].body) {
       body_of_source[i] = scene.bodies.size();
+      built[i].body->label = outline.bodies[i].label;
+      built[i].body->pair_class = outline.bodies[i].pair_class;
       scene.bodies.push_back(std::move(*built[i].body));
     } else {
-      scene.problems.push_back({parts.sources[i].source, "body '" + parts.sources[i].name +
-                                                             "' is not served: " + built[i].problem + "; " +
-                                                             lostPairs(selection.pairs, i)});
+      scene.problems.push_back(
+          {parts.sources[i].source, "body '" + parts.sources[i].name + "' is not served: " +
+                                        built[i].problem + "; " + lostPairs(outline, i)});
     }
   }
-  for (SelectedPair& pair : selection.pairs) {
-    const std::optional<std::size_t> a = body_of_source[pair.source_a];
-    const std::optional<std::size_t> b = body_of_source[pair.source_b];
+  for (const ScenePair& pair : outline.pairs) {
+    const std::optional<std::size_t> a = body_of_source[pair.body_a];
+    const std::optional<std::size_t> b = body_of_source[pair.body_b];
     if (a && b) scene.pairs.push_back({pair.name, *a, *b, pair.enabled, pair.settings});
   }
   noteOpenBodies(scene);
@@ -208,7 +264,8 @@ Scene loadSceneText(const std::string& yaml, const std::string& where, const std
   SceneParts parts;
   for (const RobotSpec& robot : spec.robots) addRobot(robot, base_folder, options, parts);
   for (const detail::BodySpec& body : spec.bodies) detail::addBody(body, base_folder, parts);
-  Scene scene = assemble(spec, std::move(parts), options);
+  Scene scene = assemble(spec, parts, options);
+  detail::limitManyPairs(scene, parts);
   if (options.strict) requireNoProblem(scene);
   return scene;
 }
@@ -251,8 +308,9 @@ Scene loadRobotScene(const std::string& urdf, const std::string& where, const Sc
     robot.semantic_description = kSemanticDescription;
     addSemantics(robot, description, "", options, parts);
   }
-  Scene scene = assemble(spec, std::move(parts), options);
+  Scene scene = assemble(spec, parts, options);
   if (options.automatic_cutoff) detail::setAutomaticCutoff(scene, description);
+  detail::limitManyPairs(scene, parts);
   detail::warnOfNoGeometry(scene, description, options.geometry);
   detail::reportOverlappingPairs(scene, description, options);
   if (options.strict) requireNoProblem(scene);

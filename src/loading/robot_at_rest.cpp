@@ -21,6 +21,8 @@ constexpr double kCutoffShare = 0.2;  // of the robot's diagonal
 constexpr std::size_t kRandomPoses = 20;
 constexpr std::uint64_t kSeed = 1;
 constexpr std::size_t kMostNamed = 8;
+constexpr std::size_t kFewPairs = 1000;  // all of which may be solved at any distance
+constexpr std::size_t kMostTried = 100'000;  // pairs: those of a robot of 450 links
 constexpr double kEnoughToBeApart = 0.9;  // of the distance: the proof ends with a bound above 0
 
 using Poses = std::unordered_map<std::string, Eigen::Isometry3d>;
@@ -46,8 +48,7 @@ bool overlap(const SceneBody& a, const SceneBody& b, const Poses& poses) {
   return isContained(*a.mesh, *b.mesh, a_from_b, no_limit).value_or(false);
 }
 
-double robotDiagonal(const Scene& scene, const RobotDescription& robot) {
-  const Poses poses = linkPoses(robot, zeroPositions(robot));
+double diagonalAt(const Scene& scene, const Poses& poses) {
   Eigen::AlignedBox3d box;
   for (const SceneBody& body : scene.bodies) {
     const Eigen::Isometry3d* pose = poseOf(poses, body);
@@ -67,11 +68,12 @@ double automaticCutoff(double diagonal) {
   return std::ceil(wanted / unit) * unit;
 }
 
-std::vector<std::size_t> pairsThatAlwaysOverlap(const Scene& scene, const RobotDescription& robot,
-                                                const LoadProgress* progress) {
+// Places in `pairs`.
+std::vector<std::size_t> pairsThatAlwaysOverlap(const Scene& scene, const PairList& pairs,
+                                                const RobotDescription& robot, const LoadProgress* progress) {
   std::vector<std::size_t> left;
-  for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
-    if (scene.pairs[i].enabled) left.push_back(i);
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    if (pairs[i].enabled) left.push_back(i);
   }
   RandomEngine engine(kSeed);
   for (std::size_t pose = 0; pose <= kRandomPoses && !left.empty(); ++pose) {
@@ -79,7 +81,7 @@ std::vector<std::size_t> pairsThatAlwaysOverlap(const Scene& scene, const RobotD
     const Poses poses = linkPoses(robot, pose == 0 ? zeroPositions(robot) : randomPositions(robot, engine));
     std::vector<char> overlaps(left.size(), 0);
     tbb::parallel_for(std::size_t{0}, left.size(), [&](std::size_t i) {
-      const ScenePair& pair = scene.pairs[left[i]];
+      const ScenePair& pair = pairs[left[i]];
       overlaps[i] = overlap(scene.bodies[pair.body_a], scene.bodies[pair.body_b], poses) ? 1 : 0;
     });
     std::vector<std::size_t> still;
@@ -91,12 +93,12 @@ std::vector<std::size_t> pairsThatAlwaysOverlap(const Scene& scene, const RobotD
   return left;
 }
 
-std::string describeOverlap(const Scene& scene, const std::vector<std::size_t>& pairs) {
+std::string describeOverlap(const PairList& all, const std::vector<std::size_t>& pairs) {
   std::string text = counted(pairs.size(), "pair") + (pairs.size() == 1 ? " overlaps" : " overlap") +
                      " in the zero pose and in " + std::to_string(kRandomPoses) +
                      " random poses, so that the distance is always 0: ";
   for (std::size_t i = 0; i < std::min(pairs.size(), kMostNamed); ++i) {
-    text += (i == 0 ? "" : ", ") + scene.pairs[pairs[i]].name;
+    text += (i == 0 ? "" : ", ") + all[pairs[i]].name;
   }
   return text + (pairs.size() > kMostNamed ? ", ..." : "");
 }
@@ -105,16 +107,45 @@ std::string metres(double length) {
   return numberText(length) + " m";
 }
 
+std::vector<PairSettings*> settingsByRule(Scene& scene) {
+  std::vector<PairSettings*> all{&scene.defaults.pairs};
+  for (std::size_t i = 1; i < scene.rules.settings.size(); ++i) all.push_back(&scene.rules.settings[i]);
+  return all;
+}
+
 }  // namespace
 
+void limitManyPairs(Scene& scene, const SceneParts& parts) {
+  std::vector<PairSettings*> without;
+  for (PairSettings* settings : settingsByRule(scene)) {
+    if (!std::isfinite(settings->tracker.cutoff)) without.push_back(settings);
+  }
+  const std::size_t pairs = without.empty() ? 0 : countRuledPairs(scene);
+  if (pairs <= kFewPairs) return;
+  double diagonal = 0.0;
+  for (const Poses& robot : parts.robots_at_rest) diagonal = std::max(diagonal, diagonalAt(scene, robot));
+  for (const SceneBody& body : scene.bodies) diagonal = std::max(diagonal, body.mesh->diameter());
+  const double cutoff = automaticCutoff(diagonal);
+  if (!std::isfinite(cutoff)) return;
+  for (PairSettings* settings : without) {
+    // An alert needs the distance.
+    settings->tracker.cutoff = std::max(cutoff, settings->warning_distance.value_or(0.0));
+  }
+  scene.notes.push_back("cutoff " + metres(cutoff) + " of the pairs without one, because there are " +
+                        std::to_string(pairs) + ": a fifth of the largest diagonal of a robot or body, " +
+                        metres(diagonal) + " (set cutoff in defaults; a pair that an entry names by both " +
+                        "bodies keeps none)");
+}
+
 void setAutomaticCutoff(Scene& scene, const RobotDescription& robot) {
-  const double diagonal = robotDiagonal(scene, robot);
+  const double diagonal = diagonalAt(scene, linkPoses(robot, zeroPositions(robot)));
   const double cutoff = automaticCutoff(diagonal);
   scene.automatic_cutoff = cutoff;
   scene.defaults.pairs.tracker.cutoff = cutoff;
   for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
     scene.pairs.edit(i).settings.tracker.cutoff = cutoff;
   }
+  for (PairSettings& settings : scene.rules.settings) settings.tracker.cutoff = cutoff;
   if (!std::isfinite(cutoff)) return;
   scene.notes.push_back("cutoff " + metres(cutoff) + ", a fifth of the robot's diagonal of " +
                         metres(diagonal) + " in its zero pose: pairs farther apart have only a lower bound " +
@@ -136,20 +167,25 @@ void warnOfNoGeometry(Scene& scene, const RobotDescription& robot, GeometrySourc
 }
 
 void reportOverlappingPairs(Scene& scene, const RobotDescription& robot, const SceneLoadOptions& options) {
-  const std::vector<std::size_t> pairs = pairsThatAlwaysOverlap(scene, robot, options.progress);
+  const PairList all = allPairs(scene, kMostTried);
+  const std::vector<std::size_t> pairs = pairsThatAlwaysOverlap(scene, all, robot, options.progress);
   if (pairs.empty()) return;
-  const std::string text = describeOverlap(scene, pairs);
+  const std::string text = describeOverlap(all, pairs);
   if (!options.skip_overlapping_pairs) {
     scene.warnings.push_back(text + ". If this is intended, disable them in its SRDF, or set " +
                              "~skip_overlapping_pairs");
     return;
   }
   scene.notes.push_back(text + ". They are left out because ~skip_overlapping_pairs is set");
-  PairList kept;
-  for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
-    if (!std::binary_search(pairs.begin(), pairs.end(), i)) kept.appendShared(scene.pairs, i);
+  auto filtered = scene.rules.filtered ? *scene.rules.filtered
+                                       : std::vector<std::pair<std::uint64_t, std::uint64_t>>();
+  for (const std::size_t pair : pairs) {
+    const SceneBody& a = scene.bodies[all[pair].body_a];
+    const SceneBody& b = scene.bodies[all[pair].body_b];
+    filtered.emplace_back(std::minmax(a.serial, b.serial));
   }
-  scene.pairs = std::move(kept);
+  std::sort(filtered.begin(), filtered.end());
+  scene.rules.filtered = std::make_shared<const decltype(filtered)>(std::move(filtered));
 }
 
 }  // namespace concave_distance::detail

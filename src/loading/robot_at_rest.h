@@ -3,10 +3,15 @@
 #include "concave_distance/loading/load_scene.h"
 #include "concave_distance/scene/scene.h"
 #include "robot_description.h"
+#include "scene_parts.h"
 
 namespace concave_distance::detail {
 
 // Checks of a robot's scene from the URDF alone, before anything moves it.
+
+/// Gives the pairs by rule that have no cutoff one, where there are more than 1000 of them: a fifth of the
+/// diagonal of the largest body, or of the largest robot in its zero pose; adds a note. Listed pairs keep none.
+void limitManyPairs(Scene& scene, const SceneParts& parts);
 
 /// Gives every pair a cutoff for the robot's size: a fifth of the diagonal of the box around it in its zero
 /// pose, rounded up to two digits; adds a note.

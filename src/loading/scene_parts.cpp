@@ -4,6 +4,7 @@
 
 #include "concave_distance/base/error.h"
 #include "frame_name.h"
+#include "link_poses.h"
 #include "scene/name_pattern.h"
 #include "wording.h"
 
@@ -88,9 +89,9 @@ const char* SceneParts::filterReason(std::size_t source_a, std::size_t source_b)
   const BodySource& a = sources[source_a];
   const BodySource& b = sources[source_b];
   const LinkPair pair = linkPair(a.name, b.name);
-  if (disabled_by_srdf.count(pair) != 0) return "disabled in the SRDF";
-  if (rigid.areJoined(a.frame, b.frame)) return "no joint moves one against the other";
-  if (adjacent.count(pair) != 0) return "adjacent links";
+  if (disabled_by_srdf.count(pair) != 0) return kDisabledBySrdf;
+  if (rigid.areJoined(a.frame, b.frame)) return kRigid;
+  if (adjacent.count(pair) != 0) return kAdjacent;
   return nullptr;
 }
 
@@ -98,6 +99,10 @@ void addRobot(const RobotSpec& spec, const RobotDescription& robot, const Descri
               SceneParts& parts) {
   for (const std::string& note : robot.notes) parts.notes.push_back(urdf.where + ", " + note);
   addLinks(spec, robot, urdf, parts);
+  auto& at_rest = parts.robots_at_rest.emplace_back();
+  for (const auto& [link, pose] : linkPoses(robot, zeroPositions(robot))) {
+    at_rest.emplace(bodyName(spec, link), pose);
+  }
   for (const RobotJoint& joint : robot.joints) {
     if (joint.fixed) parts.rigid.join(bodyName(spec, joint.parent), bodyName(spec, joint.child));
     if (joint.floating) {

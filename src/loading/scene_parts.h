@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <set>
 #include <string>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -33,9 +34,14 @@ struct SceneParts {
   std::vector<std::pair<std::string, std::vector<std::string>>> groups;  ///< of robots and SRDFs: body names
   std::vector<std::string> notes;
   std::vector<std::string> warnings;
+  /// The robots in their zero poses: poses of links in the root's frame, by body name.
+  std::vector<std::unordered_map<std::string, Eigen::Isometry3d>> robots_at_rest;
   std::vector<SceneProblem> problems;  ///< URDFs and SRDFs that cannot be read
   bool robot_failed = false;           ///< a name that nobody knows may be one of its links
 
+  static constexpr const char* kDisabledBySrdf = "disabled in the SRDF";
+  static constexpr const char* kRigid = "no joint moves one against the other";
+  static constexpr const char* kAdjacent = "adjacent links";
   /// Returns why a pair is not watched unless the scene file names both bodies; nullptr when it is.
   const char* filterReason(std::size_t source_a, std::size_t source_b) const;
 };

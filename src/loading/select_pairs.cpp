@@ -1,8 +1,11 @@
 #include "select_pairs.h"
 
 #include <algorithm>
-#include <numeric>
+#include <array>
+#include <map>
+#include <optional>
 #include <set>
+#include <tuple>
 #include <utility>
 
 #include "base/ascii.h"
@@ -14,11 +17,7 @@
 namespace concave_distance::detail {
 namespace {
 
-using SourcePair = std::pair<std::size_t, std::size_t>;
-
-SourcePair unordered(std::size_t a, std::size_t b) {
-  return {std::min(a, b), std::max(a, b)};
-}
+using Side = std::vector<bool>;  // one entry each source
 
 // Usable in a topic's name: letters, digits and _.
 std::string topicPart(const std::string& body) {
@@ -29,13 +28,39 @@ std::string topicPart(const std::string& body) {
   return part;
 }
 
-// The entries that speak of one pair, in the order of the file; those that name both its bodies come last.
-struct Candidate {
-  std::size_t source_a;
-  std::size_t source_b;
-  std::vector<const PairSpec*> general;
-  std::vector<const PairSpec*> own;
-  bool disabled = false;
+// Each once: what is taken gets a number.
+std::vector<std::string> labelsOf(const std::vector<BodySource>& sources) {
+  std::set<std::string> taken;
+  std::vector<std::string> labels;
+  for (const BodySource& source : sources) {
+    const std::string wanted = topicPart(source.name);
+    std::string label = wanted;
+    for (int copy = 2; !taken.insert(label).second; ++copy) label = wanted + "_" + std::to_string(copy);
+    labels.push_back(std::move(label));
+  }
+  return labels;
+}
+
+/// The two sides of an entry.
+struct Sides {
+  std::size_t number = 0;           ///< of the entry in the file
+  const PairSpec* entry = nullptr;  ///< nullptr: of `disable`, or every body against every other
+  Side a;
+  Side b;
+
+  bool hold(std::size_t source_a, std::size_t source_b) const { return a[source_a] && b[source_b]; }
+  bool holdEitherWay(std::size_t source_a, std::size_t source_b) const {
+    return hold(source_a, source_b) || hold(source_b, source_a);
+  }
+};
+
+/// The entries that name both bodies of one pair.
+struct NamedPair {
+  std::size_t source_a = 0;
+  std::size_t source_b = 0;
+  std::size_t number = 0;  ///< of the first entry in the file
+  std::vector<const PairSpec*> entries;
+  bool is_disabled = false;
 };
 
 class Selection {
@@ -44,18 +69,18 @@ class Selection {
       : spec_(spec), parts_(parts), pair_limit_(pair_limit), selector_(parts, spec.groups, result_.notes) {}
 
   PairSelection run() {
+    result_.labels = labelsOf(parts_.sources);
+    findFiltered();
     if (spec_.pairs) {
       for (const PairSpec& entry : *spec_.pairs) addEntry(entry);
     } else {
-      std::vector<std::size_t> all(parts_.sources.size());
-      std::iota(all.begin(), all.end(), std::size_t{0});
-      addPairs(all, all, nullptr);
+      const Side all(parts_.sources.size(), true);
+      general_.push_back({0, nullptr, all, all});
     }
     for (const auto& sides : spec_.disabled) disable(sides);
-    for (const auto& [reason, pairs] : filtered_) {
-      result_.notes.push_back(counted(pairs.size(), "pair") + " left out: " + reason);
-    }
-    finish();
+    makeRules();
+    noteFiltered();
+    for (const NamedPair& pair : named_) result_.pairs.push_back(settle(pair));
     for (const auto& [name, sources] : selector_.groups()) {
       std::vector<std::string>& members = result_.groups[name];
       for (const std::size_t source : sources) members.push_back(parts_.sources[source].name);
@@ -64,7 +89,14 @@ class Selection {
   }
 
  private:
+  Side sideOf(const std::vector<std::size_t>& sources) const {
+    Side side(parts_.sources.size(), false);
+    for (const std::size_t source : sources) side[source] = true;
+    return side;
+  }
+
   void addEntry(const PairSpec& entry) {
+    ++entries_;
     const BodySelector::Selection a = selector_.select(entry.between[0]);
     const BodySelector::Selection b = selector_.select(entry.between[1]);
     const std::string& where = entry.between[0].where;
@@ -80,9 +112,11 @@ class Selection {
         throw Error(where, "the name '" + entry.name + "' for more than one pair",
                     "name a pair in an entry that names both its bodies");
       }
-      if (addPairs(a.sources, b.sources, &entry) == 0) {
+      const bool is_one_body = a.sources.size() == 1 && a.sources == b.sources;
+      if (a.sources.empty() || b.sources.empty() || is_one_body) {
         result_.notes.push_back(where + ": gives no pair");
       }
+      general_.push_back({entries_, &entry, sideOf(a.sources), sideOf(b.sources)});
       return;
     }
     if (entry.between[0].text == entry.between[1].text) {
@@ -100,91 +134,213 @@ class Selection {
     if (const char* reason = parts_.filterReason(source_a, source_b)) {
       result_.notes.push_back(where + ": named, so watched in spite of: " + reason);
     }
-    candidateOf(source_a, source_b).own.push_back(&entry);
+    namedPair(source_a, source_b).entries.push_back(&entry);
   }
 
-  // Every pair of the two sides that no filter holds back. Returns how many the sides have
-  // before the filters.
-  std::size_t addPairs(const std::vector<std::size_t>& side_a, const std::vector<std::size_t>& side_b,
-                       const PairSpec* entry) {
-    std::set<SourcePair> seen;
-    for (const std::size_t a : side_a) {
-      for (const std::size_t b : side_b) {
-        if (a == b || !seen.insert(unordered(a, b)).second) continue;
-        if (const char* reason = parts_.filterReason(a, b)) {
-          filtered_[reason].insert(unordered(a, b));
-        } else if (Candidate& candidate = candidateOf(a, b); entry != nullptr) {
-          candidate.general.push_back(entry);
-        }
-      }
+  NamedPair* findNamed(std::size_t a, std::size_t b) {
+    const auto found = place_.find(std::minmax(a, b));
+    return found == place_.end() ? nullptr : &named_[found->second];
+  }
+
+  NamedPair& namedPair(std::size_t a, std::size_t b) {
+    if (NamedPair* found = findNamed(a, b)) return *found;
+    if (named_.size() == pair_limit_) {
+      throw Error("pairs", "more than " + std::to_string(pair_limit_) + " named pairs",
+                  "use groups and patterns in the scene file's section pairs, or raise largest_pair_count");
     }
-    return seen.size();
+    place_[std::minmax(a, b)] = named_.size();
+    named_.push_back({a, b, entries_, {}, false});
+    return named_.back();
   }
 
-  Candidate& candidateOf(std::size_t a, std::size_t b) {
-    const auto [place, is_new] = number_.emplace(unordered(a, b), candidates_.size());
-    if (is_new && candidates_.size() == pair_limit_) {
-      const std::size_t bodies = parts_.sources.size();
-      throw Error(
-          "pairs",
-          "more than " + std::to_string(pair_limit_) + " pairs of " + std::to_string(bodies) + " bodies",
-          "name the pairs to watch in the scene file's section pairs, or raise largest_pair_count");
-    }
-    if (is_new) candidates_.push_back({a, b, {}, {}});
-    return candidates_[place->second];
+  bool isWatched(std::size_t a, std::size_t b) const {
+    return std::any_of(general_.begin(), general_.end(),
+                       [&](const Sides& sides) { return sides.holdEitherWay(a, b); });
   }
 
-  void disable(const std::array<Selector, 2>& sides) {
-    const BodySelector::Selection a = selector_.select(sides[0]);
-    const BodySelector::Selection b = selector_.select(sides[1]);
+  void disable(const std::array<Selector, 2>& selectors) {
+    const BodySelector::Selection a = selector_.select(selectors[0]);
+    const BodySelector::Selection b = selector_.select(selectors[1]);
     bool any = false;
-    for (const std::size_t source_a : a.sources) {
-      for (const std::size_t source_b : b.sources) {
-        const auto found = number_.find(unordered(source_a, source_b));
-        if (source_a == source_b || found == number_.end()) continue;
-        candidates_[found->second].disabled = true;
-        any = true;
+    if (a.names_one && b.names_one && a.sources.size() == 1 && b.sources.size() == 1) {
+      const std::size_t source_a = a.sources.front();
+      const std::size_t source_b = b.sources.front();
+      any = source_a != source_b &&
+            (findNamed(source_a, source_b) != nullptr ||
+             (isWatched(source_a, source_b) && parts_.filterReason(source_a, source_b) == nullptr));
+      if (any) namedPair(std::min(source_a, source_b), std::max(source_a, source_b)).is_disabled = true;
+    } else {
+      const Sides sides{0, nullptr, sideOf(a.sources), sideOf(b.sources)};
+      for (NamedPair& pair : named_) {
+        if (!sides.holdEitherWay(pair.source_a, pair.source_b)) continue;
+        any = pair.is_disabled = true;
       }
+      for (const std::size_t source_a : a.sources) {
+        any = any || std::any_of(b.sources.begin(), b.sources.end(), [&](std::size_t source_b) {
+                return source_a != source_b && isWatched(source_a, source_b) &&
+                       parts_.filterReason(source_a, source_b) == nullptr;
+              });
+      }
+      disabled_.push_back(sides);
     }
-    if (!any) result_.notes.push_back(sides[0].where + ": disables no watched pair");
+    if (!any) result_.notes.push_back(selectors[0].where + ": disables no watched pair");
   }
 
-  SelectedPair settle(const Candidate& candidate) const {
-    SelectedPair pair;
-    pair.source_a = candidate.source_a;
-    pair.source_b = candidate.source_b;
-    pair.settings = spec_.defaults.pairs;
-    std::optional<bool> enabled;
-    std::string where = "pair of '" + parts_.sources[candidate.source_a].name + "' and '" +
-                        parts_.sources[candidate.source_b].name + "'";
-    for (const auto* entries : {&candidate.general, &candidate.own}) {
-      for (const PairSpec* entry : *entries) {
-        if (entry->entry) {
-          readPairEntry(*entry->entry, pair.settings, enabled);
-          where = entry->entry->where();
+  // What the general entries and `disable` say of two sources.
+  struct Said {
+    PairRule rule;
+    std::size_t number = 0;  ///< of the first entry
+    std::vector<const PairSpec*> entries;
+  };
+
+  Said saidOf(std::size_t earlier, std::size_t later) const {
+    Said said;
+    for (const Sides& sides : general_) {
+      const bool forwards = sides.hold(earlier, later);
+      const bool backwards = sides.hold(later, earlier);
+      if (!forwards && !backwards) continue;
+      if (!said.rule.is_watched) {
+        said.rule.is_watched = true;
+        said.rule.order = forwards ? PairOrder::Earlier : PairOrder::Later;
+        said.number = sides.number;
+      }
+      if (sides.entry != nullptr && sides.entry->entry) said.entries.push_back(sides.entry);
+    }
+    for (const Sides& sides : disabled_) {
+      if (sides.holdEitherWay(earlier, later)) said.rule.is_enabled = false;
+    }
+    return said;
+  }
+
+  PairSettings settingsOf(const std::vector<const PairSpec*>& entries, std::size_t a, std::size_t b,
+                          std::optional<bool>& enabled) const {
+    PairSettings settings = spec_.defaults.pairs;
+    std::string where =
+        "pair of '" + parts_.sources[a].name + "' and '" + parts_.sources[b].name + "'";
+    for (const PairSpec* entry : entries) {
+      if (!entry->entry) continue;
+      readPairEntry(*entry->entry, settings, enabled);
+      where = entry->entry->where();
+    }
+    validatePairSettings(settings, where);
+    return settings;
+  }
+
+  // Sources that all sides hold alike are one class; the first two of each speak for it.
+  void makeRules() {
+    std::map<Side, std::uint32_t> number{{Side(2 * (general_.size() + disabled_.size()), false), 0}};
+    std::vector<std::vector<std::size_t>> members(1);
+    for (std::size_t source = 0; source < parts_.sources.size(); ++source) {
+      Side held;
+      for (const auto* list : {&general_, &disabled_}) {
+        for (const Sides& sides : *list) {
+          held.push_back(sides.a[source]);
+          held.push_back(sides.b[source]);
         }
-        if (!entry->name.empty()) pair.name = entry->name;
+      }
+      const auto [place, is_new] = number.emplace(std::move(held), static_cast<std::uint32_t>(members.size()));
+      if (is_new) members.emplace_back();
+      result_.classes.push_back(place->second);
+      if (members[place->second].size() < 2) members[place->second].push_back(source);
+    }
+    PairRules& rules = result_.rules;
+    rules.classes = members.size();
+    rules.table.assign(members.size() * members.size(), PairRule());
+    rules.settings.assign(1, PairSettings());
+    std::map<std::vector<const PairSpec*>, std::pair<std::uint32_t, std::optional<bool>>> made;
+    for (std::size_t row = 0; row < members.size(); ++row) {
+      for (std::size_t column = 0; column < members.size(); ++column) {
+        if (members[row].empty() || members[column].size() < (row == column ? 2U : 1U)) continue;
+        const std::size_t earlier = members[row].front();
+        const std::size_t later = members[column].back();
+        const Said said = saidOf(earlier, later);
+        PairRule& rule = rules.of(row, column);
+        rule = said.rule;
+        if (!rule.is_watched) continue;
+        const auto [place, is_new] = made.try_emplace(said.entries);
+        auto& [settings, enabled] = place->second;
+        if (is_new) {
+          PairSettings laid = settingsOf(said.entries, earlier, later, enabled);
+          if (!said.entries.empty()) {
+            settings = static_cast<std::uint32_t>(rules.settings.size());
+            rules.settings.push_back(std::move(laid));
+          }
+        }
+        rule.settings = settings;
+        rule.is_enabled = rule.is_enabled && enabled.value_or(true);
       }
     }
-    pair.enabled = enabled.value_or(true) && !candidate.disabled;
-    validatePairSettings(pair.settings, where);
+  }
+
+  SelectedPair settle(const NamedPair& named) const {
+    const bool is_filtered = parts_.filterReason(named.source_a, named.source_b) != nullptr;
+    Said said;
+    if (!is_filtered) {
+      said = saidOf(std::min(named.source_a, named.source_b), std::max(named.source_a, named.source_b));
+    }
+    SelectedPair pair;
+    std::tie(pair.source_a, pair.source_b) = std::pair(named.source_a, named.source_b);
+    if (said.rule.is_watched && (said.number < named.number || named.entries.empty())) {
+      std::tie(pair.source_a, pair.source_b) = std::minmax(named.source_a, named.source_b);
+      if (said.rule.order == PairOrder::Later) std::swap(pair.source_a, pair.source_b);
+    }
+    said.entries.insert(said.entries.end(), named.entries.begin(), named.entries.end());
+    std::optional<bool> enabled;
+    pair.settings = settingsOf(said.entries, pair.source_a, pair.source_b, enabled);
+    const bool is_disabled = named.is_disabled || std::any_of(disabled_.begin(), disabled_.end(), [&](const Sides& s) {
+                               return s.holdEitherWay(named.source_a, named.source_b);
+                             });
+    pair.enabled = enabled.value_or(true) && !is_disabled;
+    for (const PairSpec* entry : named.entries) {
+      if (!entry->name.empty()) pair.name = entry->name;
+    }
     return pair;
   }
 
-  void finish() {
-    std::set<std::string> taken;
-    if (spec_.pairs) {
-      for (const PairSpec& entry : *spec_.pairs) taken.insert(entry.name);
-    }
-    for (const Candidate& candidate : candidates_) {
-      SelectedPair pair = settle(candidate);
-      if (pair.name.empty()) {
-        const std::string name = topicPart(parts_.sources[pair.source_a].name) + "/" +
-                                 topicPart(parts_.sources[pair.source_b].name);
-        pair.name = name;
-        for (int i = 2; !taken.insert(pair.name).second; ++i) pair.name = name + "_" + std::to_string(i);
+  void findFiltered() {
+    std::map<std::string, std::size_t> source_of_name;
+    for (std::size_t i = 0; i < parts_.sources.size(); ++i) source_of_name[parts_.sources[i].name] = i;
+    std::set<LinkPair> all = parts_.disabled_by_srdf;
+    all.insert(parts_.adjacent.begin(), parts_.adjacent.end());
+    for (const LinkPair& pair : all) {
+      const auto a = source_of_name.find(pair.first);
+      const auto b = source_of_name.find(pair.second);
+      if (a != source_of_name.end() && b != source_of_name.end() && a->second != b->second) {
+        result_.filtered.emplace_back(std::minmax(a->second, b->second));
       }
-      result_.pairs.push_back(std::move(pair));
+    }
+  }
+
+  // Counts what the entries would watch without the filters.
+  void noteFiltered() {
+    std::map<std::string, std::size_t> counts;
+    const auto rule_watches = [&](std::size_t earlier, std::size_t later) {
+      return result_.rules.of(result_.classes[earlier], result_.classes[later]).is_watched;
+    };
+    std::map<std::string, std::vector<std::size_t>> rigid;  // sources by what stands for their frames
+    for (std::size_t i = 0; i < parts_.sources.size(); ++i) {
+      rigid[parts_.rigid.rootOf(parts_.sources[i].frame)].push_back(i);
+    }
+    std::size_t unmoved = 0;
+    for (const auto& [root, sources] : rigid) {
+      std::vector<std::size_t> of_class(result_.rules.classes, 0);
+      for (const std::size_t later : sources) {
+        for (std::size_t row = 0; row < of_class.size(); ++row) {
+          if (result_.rules.of(row, result_.classes[later]).is_watched) unmoved += of_class[row];
+        }
+        ++of_class[result_.classes[later]];
+      }
+    }
+    for (const auto& [a, b] : result_.filtered) {
+      if (!rule_watches(a, b)) continue;
+      const std::string reason = parts_.filterReason(a, b);
+      const bool is_rigid = parts_.rigid.areJoined(parts_.sources[a].frame, parts_.sources[b].frame);
+      if (is_rigid && reason == parts_.kDisabledBySrdf) --unmoved;
+      if (!is_rigid || reason == parts_.kDisabledBySrdf) ++counts[reason];
+    }
+    if (unmoved > 0) counts[parts_.kRigid] = unmoved;
+    for (const auto& [reason, count] : counts) {
+      result_.notes.push_back(counted(count, "pair") + " left out: " + reason);
     }
   }
 
@@ -193,9 +349,11 @@ class Selection {
   std::size_t pair_limit_;
   PairSelection result_;
   BodySelector selector_;  // writes its notes into result_
-  std::vector<Candidate> candidates_;
-  std::map<SourcePair, std::size_t> number_;
-  std::map<std::string, std::set<SourcePair>> filtered_;
+  std::size_t entries_ = 0;
+  std::vector<Sides> general_;
+  std::vector<Sides> disabled_;
+  std::vector<NamedPair> named_;
+  std::map<std::pair<std::size_t, std::size_t>, std::size_t> place_;  // in named_
 };
 
 }  // namespace

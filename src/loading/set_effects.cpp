@@ -2,7 +2,7 @@
 
 #include "concave_distance/base/error.h"
 #include "effects_reader.h"
-#include "scene/matching_pairs.h"
+#include "scene/rule_edits.h"
 #include "settings_reader.h"
 
 namespace concave_distance {
@@ -19,14 +19,11 @@ std::vector<std::string> setEffects(Scene& scene, const std::string& pattern, co
                 "allowed: at most " + std::to_string(kLongestEffects));
   }
   const detail::YamlValue value = detail::YamlValue::parse(yaml, "effects");
-  std::vector<std::string> names;
-  for (const std::size_t i : detail::matchingPairs(scene, pattern)) {
-    ScenePair& pair = scene.pairs.edit(i);
-    names.push_back(pair.name);
-    detail::readEffects(value, pair.settings.effects);
-    detail::validatePairSettings(pair.settings, "pair '" + pair.name + "'");
-  }
-  return names;
+  return detail::changeMatchingPairs(scene, pattern,
+                                     [&](const std::string& where, bool&, PairSettings& settings) {
+                                       detail::readEffects(value, settings.effects);
+                                       detail::validatePairSettings(settings, where);
+                                     });
 }
 
 }  // namespace concave_distance

@@ -85,6 +85,11 @@ void NichePreparation::add(std::shared_ptr<PreparationTask> task) {
   added_.notify_one();
 }
 
+void NichePreparation::addAhead(const std::shared_ptr<const BodyMesh>& mesh,
+                                const TrackerParameters& parameters) {
+  if (begun_ahead_.insert(mesh.get()).second) add(std::make_shared<PreparationTask>(mesh, mesh, parameters));
+}
+
 void NichePreparation::work() {
   giveWay();
   std::vector<std::shared_ptr<PreparationTask>> taken;

@@ -6,6 +6,7 @@
 #include <memory>
 #include <mutex>
 #include <thread>
+#include <unordered_set>
 #include <vector>
 
 #include "concave_distance/mesh/body_mesh.h"
@@ -47,9 +48,12 @@ class NichePreparation {
 
   /// Runs a task after those that came before; at once where no thread can be had.
   void add(std::shared_ptr<PreparationTask> task);
+  /// Makes what a mesh needs against any other, once.
+  void addAhead(const std::shared_ptr<const BodyMesh>& mesh, const TrackerParameters& parameters);
 
  private:
   void work();
+  std::unordered_set<const BodyMesh*> begun_ahead_;  ///< meshes, some of which may be gone
 
   std::mutex mutex_;  ///< of the following
   std::condition_variable added_;

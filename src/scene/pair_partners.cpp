@@ -27,13 +27,18 @@ class MovingBodies {
     return true;
   }
 
+  std::vector<std::string> found_by_asking;  ///< frames
+
  private:
   // tf is asked once for each frame, because many bodies share few frames.
   bool isRigid(const std::string& frame) {
     const auto [place, is_new] = rigid_.emplace(frame, false);
     if (is_new) {
-      place->second =
-          scene_.rigid.areJoined(frame, frame_) || (partners_.is_rigid && partners_.is_rigid(frame, frame_));
+      place->second = scene_.rigid.areJoined(frame, frame_);
+      if (!place->second && partners_.is_rigid && partners_.is_rigid(frame, frame_)) {
+        place->second = true;
+        found_by_asking.push_back(frame);
+      }
     }
     return place->second;
   }
@@ -45,11 +50,10 @@ class MovingBodies {
   std::unordered_map<std::string, bool> rigid_;
 };
 
-// Each body once, in the order of the request.
-std::vector<std::size_t> partnersNamed(const Scene& scene, const SceneBody& body,
-                                       const PairPartners& partners, AddedPairs& added) {
+Partners partnersNamed(const Scene& scene, const SceneBody& body, const PairPartners& partners,
+                       AddedPairs& added) {
+  Partners found;
   MovingBodies moving(scene, body.frame, partners, added);
-  std::vector<std::size_t> indices;
   std::unordered_set<std::size_t> seen;
   // First those named by themselves, which no filter leaves out.
   for (const std::string& name : partners.names) {
@@ -57,22 +61,24 @@ std::vector<std::size_t> partnersNamed(const Scene& scene, const SceneBody& body
       throw Error("pair_with", "it names the new body '" + name + "' itself", "name other bodies");
     }
     if (const auto index = scene.findBody(name); index && seen.insert(*index).second) {
-      indices.push_back(*index);
+      found.named.push_back(*index);
     }
   }
   for (const std::string& name : partners.names) {
     for (const std::size_t index : detail::matchingBodies(scene, name, "pair_with").bodies) {
       if (seen.insert(index).second && moving.holds(index)) {
-        indices.push_back(index);
+        found.rule.bodies.insert(scene.bodies[index].serial);
       }
     }
   }
-  return indices;
+  found.rigid_frames = std::move(moving.found_by_asking);
+  return found;
 }
 
-// In the order of the scene.
-std::vector<std::size_t> partnersThatMove(const Scene& scene, const SceneBody& body,
-                                          const PairPartners& partners, AddedPairs& added) {
+Partners partnersThatMove(const Scene& scene, const SceneBody& body, const PairPartners& partners,
+                          AddedPairs& added) {
+  Partners found;
+  found.rule.all = true;
   std::unordered_set<std::size_t> touched;
   for (const std::string& name : partners.may_touch) {
     const std::vector<std::size_t> bodies = detail::findMatchingBodies(scene, name).bodies;
@@ -82,19 +88,21 @@ std::vector<std::size_t> partnersThatMove(const Scene& scene, const SceneBody& b
     }
   }
   MovingBodies moving(scene, body.frame, partners, added);
-  std::vector<std::size_t> indices;
   for (std::size_t index = 0; index < scene.bodies.size(); ++index) {
-    if (touched.count(index) == 0 && moving.holds(index)) {
-      indices.push_back(index);
+    if (touched.count(index) != 0) {
+      found.rule.bodies.insert(scene.bodies[index].serial);
+    } else {
+      moving.holds(index);
     }
   }
-  return indices;
+  found.rigid_frames = std::move(moving.found_by_asking);
+  return found;
 }
 
 }  // namespace
 
-std::vector<std::size_t> partnersOf(const Scene& scene, const SceneBody& body, const PairPartners& partners,
-                                    AddedPairs& added) {
+Partners partnersOf(const Scene& scene, const SceneBody& body, const PairPartners& partners,
+                    AddedPairs& added) {
   if (partners.none && !partners.names.empty()) {
     throw Error("pair_with", "it names '" + partners.names.front() + "', and without_pairs is set",
                 "give one of the two");

@@ -20,14 +20,21 @@ struct PairPartners {
 };
 
 struct AddedPairs {
-  std::vector<std::string> names;
+  std::vector<std::string> names;             ///< of the new pairs, 1000 at most of those by rule
   std::vector<std::string> rigid_neighbours;  ///< bodies of other frames left out as rigidly connected
   std::vector<std::string> unknown;           ///< names in PairPartners::may_touch without a body
 };
 
-/// Indices of the bodies that a new one is paired with. Fills what `added` says of those left out.
+/// The partners of a new body.
+struct Partners {
+  std::vector<std::size_t> named;  ///< by themselves
+  AddedBodyRule rule;              ///< for all others
+  std::vector<std::string> rigid_frames;  ///< of PairPartners::is_rigid, unknown to the scene so far
+};
+
+/// Finds them. Fills what `added` says of bodies left out.
 /// @throws Error when a partner is unknown or the body itself, and for wishes that exclude each other
-std::vector<std::size_t> partnersOf(const Scene& scene, const SceneBody& body, const PairPartners& partners,
-                                    AddedPairs& added);
+Partners partnersOf(const Scene& scene, const SceneBody& body, const PairPartners& partners,
+                    AddedPairs& added);
 
 }  // namespace concave_distance

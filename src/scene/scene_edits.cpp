@@ -1,16 +1,20 @@
 #include "scene_edits.h"
 
 #include <algorithm>
-#include <set>
 #include <utility>
 
 #include "base/ascii.h"
 #include "concave_distance/base/error.h"
 #include "matching_bodies.h"
-#include "matching_pairs.h"
+#include "rule_edits.h"
 
 namespace concave_distance {
 namespace {
+
+bool isLabel(const Scene& scene, const std::string& label) {
+  return std::any_of(scene.bodies.begin(), scene.bodies.end(),
+                     [&](const SceneBody& body) { return body.pairLabel() == label; });
+}
 
 std::string freePairName(const Scene& scene, const std::string& wanted) {
   std::string name = wanted;
@@ -20,63 +24,104 @@ std::string freePairName(const Scene& scene, const std::string& wanted) {
   return name;
 }
 
-const std::string& appendPair(Scene& scene, std::size_t body_a, std::size_t body_b,
-                              const PairSettings& settings) {
+void appendPair(Scene& scene, std::size_t body_a, std::size_t body_b, const PairSettings& settings) {
   ScenePair pair;
-  pair.name = freePairName(scene, scene.bodies[body_a].name + "/" + scene.bodies[body_b].name);
+  pair.name = freePairName(scene, scene.bodies[body_a].pairLabel() + "/" + scene.bodies[body_b].pairLabel());
   pair.body_a = body_a;
   pair.body_b = body_b;
   pair.settings = settings;
   scene.pairs.push_back(std::move(pair));
-  return scene.pairs.back().name;
 }
 
 void requireRoomForPairs(const Scene& scene, std::size_t more) {
   const std::size_t pairs = scene.pairs.size();
   if (more > scene.limits.pairs || pairs > scene.limits.pairs - more) {
     throw Error("pairs",
-                std::to_string(more) + " new pairs besides the " + std::to_string(pairs) +
+                std::to_string(more) + " new named pairs besides the " + std::to_string(pairs) +
                     " of the scene, the limit is " + std::to_string(scene.limits.pairs),
-                "name fewer bodies in pair_with, set without_pairs, or raise ~limits/largest_pair_count");
+                "name fewer bodies, use groups and patterns, or raise ~limits/largest_pair_count");
   }
 }
 
-// Returns whether a filter can have left out the pair of two bodies that a scene has not.
-bool mayBeFiltered(const Scene& scene, std::size_t body_a, std::size_t body_b) {
+// Returns whether enabling a group may create the pair of two bodies that no rule watches.
+bool mayBeCreated(const Scene& scene, std::size_t body_a, std::size_t body_b) {
   const SceneBody& a = scene.bodies[body_a];
   const SceneBody& b = scene.bodies[body_b];
-  return a.frame == b.frame || scene.rigid.areJoined(a.frame, b.frame) ||
-         (a.is_robot_link && b.is_robot_link);
+  return !(a.frame == b.frame || scene.rigid.areJoined(a.frame, b.frame) ||
+           (a.is_robot_link && b.is_robot_link));
 }
 
-// Every pair of the two sides, once: the places of those in the scene, and the bodies of those to create.
-struct SidesPairs {
-  std::vector<std::size_t> there;
-  std::vector<std::pair<std::size_t, std::size_t>> missing;
-};
+detail::BodySide sideOf(const Scene& scene, const std::vector<std::size_t>& bodies) {
+  detail::BodySide side(scene.bodies.size(), false);
+  for (const std::size_t body : bodies) side[body] = true;
+  return side;
+}
 
-SidesPairs pairsOfSides(const Scene& scene, const PairReference& reference) {
-  const detail::MatchingBodies a = detail::matchingBodies(scene, reference.body_a, "body_a");
-  const detail::MatchingBodies b = detail::matchingBodies(scene, reference.body_b, "body_b");
-  const bool is_one_pair = a.is_one_by_name && b.is_one_by_name;
-  if (is_one_pair && a.bodies == b.bodies) {
-    throw Error("pair", "both bodies are '" + reference.body_a + "'", "name two different bodies");
+std::vector<std::string> setOnePairEnabled(Scene& scene, std::size_t body_a, std::size_t body_b, bool enabled,
+                                           const PairSettings& settings) {
+  std::optional<std::size_t> place = scene.pairs.find(body_a, body_b);
+  if (!place) {
+    std::optional<ScenePair> pair = ruledPair(scene, body_a, body_b);
+    if (!pair && !enabled) return {};
+    requireRoomForPairs(scene, 1);
+    if (pair) {
+      scene.pairs.push_back(std::move(*pair));
+    } else {
+      appendPair(scene, body_a, body_b, settings);
+    }
+    place = scene.pairs.size() - 1;
   }
-  SidesPairs pairs;
-  std::set<std::pair<std::size_t, std::size_t>> seen;
-  for (const std::size_t body_a : a.bodies) {
-    for (const std::size_t body_b : b.bodies) {
-      if (body_a == body_b || !seen.insert(std::minmax(body_a, body_b)).second) {
-        continue;
-      }
-      if (const auto found = scene.pairs.find(body_a, body_b)) {
-        pairs.there.push_back(*found);
-      } else if (is_one_pair || !mayBeFiltered(scene, body_a, body_b)) {
-        pairs.missing.emplace_back(body_a, body_b);
+  scene.pairs.edit(*place).enabled = enabled;
+  return {scene.pairs[*place].name};
+}
+
+// Of all pairs of the two sides: first those that are there, then those that are created.
+std::vector<std::string> setGroupsEnabled(Scene& scene, const std::vector<std::size_t>& bodies_a,
+                                          const std::vector<std::size_t>& bodies_b, bool enabled) {
+  const detail::BodySide side_a = sideOf(scene, bodies_a);
+  const detail::BodySide side_b = sideOf(scene, bodies_b);
+  std::vector<std::string> names;
+  std::vector<std::pair<std::size_t, std::size_t>> missing;
+  for (const std::size_t a : bodies_a) {
+    for (const std::size_t b : bodies_b) {
+      const bool is_met_twice = side_a[b] && side_b[a] && b < a;
+      if (a == b || is_met_twice || names.size() + missing.size() >= detail::kMostPairsNamed) continue;
+      if (const std::optional<ScenePair> pair = pairOf(scene, a, b)) {
+        names.push_back(pair->name);
+      } else if (enabled && mayBeCreated(scene, a, b)) {
+        missing.emplace_back(a, b);
       }
     }
   }
-  return pairs;
+  for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
+    const ScenePair& pair = scene.pairs[i];
+    if ((side_a[pair.body_a] && side_b[pair.body_b]) || (side_a[pair.body_b] && side_b[pair.body_a])) {
+      scene.pairs.edit(i).enabled = enabled;
+    }
+  }
+  detail::changeRules(
+      scene, side_a, side_b, [&](PairRule& rule, PairSettings&, const detail::RuledBodies& bodies) {
+        rule.is_enabled = enabled;
+        if (rule.is_watched || !enabled || bodies.both_are_links) return;
+        rule.is_watched = true;
+        rule.order = bodies.order;
+      });
+  for (const auto& [a, b] : missing) {
+    if (const auto pair = ruledPair(scene, a, b)) names.push_back(pair->name);
+  }
+  return names;
+}
+
+// Returns the names of the pairs of a body.
+std::vector<std::string> pairsOfBody(const Scene& scene, std::size_t body) {
+  std::vector<std::string> names;
+  for (const ScenePair& pair : scene.pairs) {
+    if (pair.body_a == body || pair.body_b == body) names.push_back(pair.name);
+  }
+  for (std::size_t i = 0; i < scene.bodies.size() && names.size() < detail::kMostPairsNamed; ++i) {
+    if (const auto pair = ruledPair(scene, i, body)) names.push_back(pair->name);
+  }
+  return names;
 }
 
 }  // namespace
@@ -104,11 +149,10 @@ std::size_t requireBody(const Scene& scene, const std::string& name) {
   return *found;
 }
 
-std::size_t requirePair(const Scene& scene, const std::string& name) {
-  if (const auto found = scene.pairs.find(name)) {
-    return *found;
+void requirePair(const Scene& scene, const std::string& name) {
+  if (!findPairNamed(scene, name)) {
+    throw Error("pair", "there is no pair '" + name + "'", "list_bodies has their names");
   }
-  throw Error("pair", "there is no pair '" + name + "'", "list_bodies has their names");
 }
 
 void requireRoomForBody(const Scene& scene) {
@@ -128,12 +172,18 @@ AddedPairs addBody(Scene& scene, SceneBody body, const PairPartners& partners, c
     throw Error("name", "there is a body '" + body.name + "' already", "remove_body it first");
   }
   AddedPairs added;
-  const std::vector<std::size_t> indices = partnersOf(scene, body, partners, added);
-  requireRoomForPairs(scene, indices.size());
+  const Partners found = partnersOf(scene, body, partners, added);
+  requireRoomForPairs(scene, found.named.size());
+  body.serial = newBodySerial();
+  body.pair_class = detail::classOfAdded(scene, settings);
+  body.added_rule = std::make_shared<const AddedBodyRule>(found.rule);
+  for (const std::string& frame : found.rigid_frames) scene.rigid.join(frame, body.frame);
+  for (int copy = 2; isLabel(scene, body.pairLabel()); ++copy) body.label = body.name + "_" + std::to_string(copy);
   scene.bodies.push_back(std::move(body));
-  for (const std::size_t partner : indices) {
-    added.names.push_back(appendPair(scene, scene.bodies.size() - 1, partner, settings));
+  for (const std::size_t partner : found.named) {
+    appendPair(scene, scene.bodies.size() - 1, partner, settings);
   }
+  added.names = pairsOfBody(scene, scene.bodies.size() - 1);
   return added;
 }
 
@@ -143,13 +193,12 @@ std::vector<std::string> removeBody(Scene& scene, const std::string& name, bool 
     throw Error("name", "'" + name + "' is a link of a robot",
                 "set allow_robot_link to remove it anyway, or switch its pairs off with set_pair_enabled");
   }
-  std::vector<std::string> names;
+  std::vector<std::string> names = pairsOfBody(scene, gone);
   PairList kept;
   for (std::size_t index = 0; index < scene.pairs.size(); ++index) {
     const ScenePair& pair = scene.pairs[index];
-    if (pair.body_a == gone || pair.body_b == gone) {
-      names.push_back(pair.name);
-    } else if (pair.body_a < gone && pair.body_b < gone) {
+    if (pair.body_a == gone || pair.body_b == gone) continue;
+    if (pair.body_a < gone && pair.body_b < gone) {
       kept.appendShared(scene.pairs, index);
     } else {
       ScenePair moved = pair;
@@ -166,32 +215,30 @@ std::vector<std::string> removeBody(Scene& scene, const std::string& name, bool 
   }
   scene.pairs = std::move(kept);
   scene.bodies = std::move(bodies);
+  detail::takeOutEmptyClasses(scene);
   return names;
 }
 
 std::vector<std::string> setPairEnabled(Scene& scene, const PairReference& reference, bool enabled,
                                         const PairSettings& settings) {
-  SidesPairs pairs;
-  if (reference.pair.empty()) {
-    pairs = pairsOfSides(scene, reference);
-  } else {
-    pairs.there = detail::matchingPairs(scene, reference.pair);
+  std::vector<std::string> names;
+  if (!reference.pair.empty()) {
+    return detail::changeMatchingPairs(
+        scene, reference.pair, [&](const std::string&, bool& is_enabled, PairSettings&) { is_enabled = enabled; });
   }
-  if (pairs.there.empty() && (pairs.missing.empty() || !enabled)) {
+  const detail::MatchingBodies a = detail::matchingBodies(scene, reference.body_a, "body_a");
+  const detail::MatchingBodies b = detail::matchingBodies(scene, reference.body_b, "body_b");
+  if (!(a.is_one_by_name && b.is_one_by_name)) {
+    names = setGroupsEnabled(scene, a.bodies, b.bodies, enabled);
+  } else if (a.bodies == b.bodies) {
+    throw Error("pair", "both bodies are '" + reference.body_a + "'", "name two different bodies");
+  } else {
+    names = setOnePairEnabled(scene, a.bodies.front(), b.bodies.front(), enabled, settings);
+  }
+  if (names.empty()) {
     throw Error("pair", "'" + reference.body_a + "' and '" + reference.body_b + "' are not a watched pair",
                 enabled ? "name two bodies: groups and patterns do not watch links against links of a robot"
                         : "nothing to switch off");
-  }
-  std::vector<std::string> names;
-  for (const std::size_t index : pairs.there) {
-    scene.pairs.edit(index).enabled = enabled;
-    names.push_back(scene.pairs[index].name);
-  }
-  if (enabled) {
-    requireRoomForPairs(scene, pairs.missing.size());
-    for (const auto& [body_a, body_b] : pairs.missing) {
-      names.push_back(appendPair(scene, body_a, body_b, settings));
-    }
   }
   return names;
 }

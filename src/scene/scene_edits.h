@@ -15,7 +15,8 @@ bool isRosName(const std::string& name);
 /// @throws Error when the scene has its largest number of bodies
 void requireRoomForBody(const Scene& scene);
 
-/// Adds a body and its pairs with its partners.
+/// Adds a body and its pairs with its partners: those that are named by themselves are listed, the rule of the
+/// body gives the others.
 /// @throws Error when the name is taken or not a ROS name, when a partner is unknown or the body itself, or
 ///         when the scene would exceed its limits
 AddedPairs addBody(Scene& scene, SceneBody body, const PairPartners& partners, const PairSettings& settings);
@@ -32,15 +33,15 @@ struct PairReference {
   std::string body_b;
 };
 
-/// Pairs of the two sides that are not in the scene are created with `settings` when they are enabled: of two
-/// bodies named by themselves also one that a filter left out (adjacent links), of groups and patterns those
-/// that no filter concerns.
-/// @return the pairs' names. @throws Error when there is no such pair or body
+/// Pairs of the two sides that are not watched are created when they are enabled: of two bodies named by
+/// themselves also one that a filter left out (adjacent links), listed and with `settings`; of groups and
+/// patterns by rule, those that no filter concerns, with the scene's defaults.
+/// @return the pairs' names, 1000 at most of groups and patterns. @throws Error when there is no such pair or body
 std::vector<std::string> setPairEnabled(Scene& scene, const PairReference& reference, bool enabled,
                                         const PairSettings& settings);
 
-/// Index of the pair with this name. @throws Error when there is none
-std::size_t requirePair(const Scene& scene, const std::string& name);
+/// @throws Error when no pair has this name
+void requirePair(const Scene& scene, const std::string& name);
 /// Index of the body with this name. @throws Error when there is none
 std::size_t requireBody(const Scene& scene, const std::string& name);
 

@@ -8,6 +8,7 @@
 
 #include "concave_distance/base/error.h"
 #include "cycle_solver.h"
+#include "near_pairs.h"
 #include "niche_preparation.h"
 
 namespace concave_distance {
@@ -37,9 +38,15 @@ void requireCount(const std::string& what, std::size_t given, std::size_t needed
               "give one for each, in their order");
 }
 
-// An edit shares the bodies that it leaves as they are.
 bool isOfTheSameBodies(const TrackedPair& tracked, const Scene& scene, const ScenePair& wanted) {
-  return tracked.body_a.get() == &scene.bodies[wanted.body_a] &&
+  return isSameBody(*tracked.body_a, scene.bodies[wanted.body_a]) &&
+         isSameBody(*tracked.body_b, scene.bodies[wanted.body_b]);
+}
+
+// An edit shares the bodies that it leaves as they are.
+bool isUntouched(const TrackedPair& tracked, const Scene& scene, std::size_t index) {
+  const ScenePair& wanted = scene.pairs[index];
+  return tracked.origin.get() == &wanted && tracked.body_a.get() == &scene.bodies[wanted.body_a] &&
          tracked.body_b.get() == &scene.bodies[wanted.body_b];
 }
 
@@ -49,7 +56,9 @@ constexpr std::size_t kMostTrianglesAhead = 1'000'000;
 }  // namespace
 
 SceneTracker::SceneTracker(SceneTrackerOptions options)
-    : options_(options), solver_(std::make_unique<CycleSolver>(options_.threads, options_.stop)) {
+    : options_(options),
+      solver_(std::make_unique<CycleSolver>(options_.threads, options_.stop)),
+      near_(std::make_unique<NearPairs>()) {
   if (options_.prepares_in_background) preparation_ = std::make_unique<NichePreparation>();
 }
 
@@ -61,8 +70,7 @@ std::vector<std::optional<std::size_t>> SceneTracker::placesNow(const Scene& sce
   std::unordered_map<std::string_view, std::size_t> moved;
   for (const ScenePair& pair : scene.pairs) requireBodies(scene, pair);
   for (std::size_t index = 0; index < pairs_.size(); ++index) {
-    if (index < places.size() && pairs_[index]->origin.get() == &scene.pairs[index] &&
-        isOfTheSameBodies(*pairs_[index], scene, scene.pairs[index])) {
+    if (index < places.size() && index < listed_ && isUntouched(*pairs_[index], scene, index)) {
       places[index] = index;
     } else {
       moved.emplace(pairs_[index]->origin->name, index);
@@ -80,10 +88,20 @@ std::vector<std::optional<std::size_t>> SceneTracker::placesNow(const Scene& sce
 }
 
 void SceneTracker::setScene(const Scene& scene, bool settings_changed) {
+  for (const SceneBody& body : scene.bodies) {
+    const bool may_be_near = body.pair_class != 0 || body.added_rule;
+    if (may_be_near && !body.mesh) {
+      throw Error("scene", "body '" + body.name + "' has no mesh", "set SceneBody::mesh");
+    }
+  }
   const std::vector<std::optional<std::size_t>> places = placesNow(scene);
+  NearPairs::Plan near = near_->plan(scene, settings_changed);
   std::vector<bool> stays(pairs_.size(), false);
   for (const std::optional<std::size_t>& place : places) {
     if (place) stays[*place] = true;
+  }
+  for (std::size_t index = 0; index < near.pairs.size(); ++index) {
+    if (near.pairs[index]) stays[listed_ + index] = true;
   }
   // Ids are not used again: pairs that come later begin above all that are gone.
   std::uint64_t largest_retired_id = largest_retired_id_;
@@ -94,6 +112,7 @@ void SceneTracker::setScene(const Scene& scene, bool settings_changed) {
     if (pairs_[place]->warning.state() != WarningState::Clear) retired.push_back(pairs_[place]);
   }
   Pairs next(places.size());
+  next.reserve(places.size() + near.pairs.size());
   for (std::size_t index = 0; index < places.size(); ++index) {
     next[index] = places[index] ? pairs_[*places[index]]
                                 : std::make_shared<TrackedPair>(scene, index, largest_retired_id);
@@ -102,27 +121,47 @@ void SceneTracker::setScene(const Scene& scene, bool settings_changed) {
 
   // Nothing below allocates.
   for (std::size_t index = 0; index < places.size(); ++index) {
-    if (!places[index] || next[index]->origin.get() == &scene.pairs[index]) continue;
-    next[index]->adopt(scene.pairs.share(index), settings_changed);
+    if (!places[index] || isUntouched(*next[index], scene, index)) continue;
+    const ScenePair& pair = scene.pairs[index];
+    next[index]->adopt(scene.pairs.share(index), scene.bodies.share(pair.body_a),
+                       scene.bodies.share(pair.body_b), settings_changed);
   }
   for (std::shared_ptr<TrackedPair>& pair : retired) {
     pair->stopWatching();
     retired_.push_back(std::move(pair));
   }
   pairs_ = std::move(next);
+  listed_ = pairs_.size();
   largest_retired_id_ = largest_retired_id;
+  near_->adopt(std::move(near), settings_changed, largest_retired_id_);
+  refreshPairs();
   body_count_ = scene.bodies.size();
   prepareAhead(scene);
+}
+
+void SceneTracker::refreshPairs() {
+  pairs_.resize(listed_);
+  pairs_.insert(pairs_.end(), near_->pairs().begin(), near_->pairs().end());
+  near_revision_ = near_->revision();
 }
 
 // Many triangles take much memory: they wait until somebody wants their niches, as all do when none is left.
 void SceneTracker::prepareAhead(const Scene& scene) {
   std::size_t triangles = 0;
-  for (const SceneBody& body : scene.bodies) triangles += body.mesh->surface().triangleCount();
+  for (const SceneBody& body : scene.bodies) {
+    if (body.mesh) triangles += body.mesh->surface().triangleCount();
+  }
   if (!preparation_ || triangles > kMostTrianglesAhead) return;
   try {
     for (const auto& pair : pairs_) {
       if (pair->origin->enabled) isPrepared(*pair);
+    }
+    // Which of the others will be near is not known: each mesh once, as if against itself.
+    const TrackerParameters& parameters = scene.defaults.pairs.tracker;
+    for (const SceneBody& body : scene.bodies) {
+      const bool may_be_near = body.pair_class != 0 || body.added_rule;
+      if (!may_be_near || !provesDistance(parameters.accuracy)) continue;
+      preparation_->addAhead(body.mesh, parameters);
     }
   } catch (const std::bad_alloc&) {
     // The scene is tracked already; a cycle that wants the niches tries again.
@@ -162,49 +201,71 @@ void SceneTracker::restart(std::size_t pair) {
 CycleCounts SceneTracker::update(const std::vector<std::optional<Eigen::Isometry3d>>& world_from_body,
                                  double time, const PairDemand& demand, WorkLimit::Clock::time_point end) {
   requireCount("poses", world_from_body.size(), body_count_, "bodies");
-  demand_.assign(pairs_.size(), demand);
-  const auto locate = [&](std::size_t index) {
-    const ScenePair& pair = *pairs_[index]->origin;
-    const std::optional<Eigen::Isometry3d>& world_from_a = world_from_body[pair.body_a];
-    const std::optional<Eigen::Isometry3d>& world_from_b = world_from_body[pair.body_b];
-    PairInput input;
-    input.time = time;
-    input.located = world_from_a && world_from_b;
-    if (input.located) input.a_from_b = world_from_a->inverse(Eigen::Isometry) * *world_from_b;
-    return input;
-  };
-  return update(demand_, std::cref(locate), end);  // a copy in std::function would allocate
+  poses_.times.assign(1, time);
+  poses_.now = time;
+  poses_.reset(body_count_);
+  for (std::size_t body = 0; body < body_count_; ++body) {
+    if (!world_from_body[body]) continue;
+    poses_.newest[body] = 0;
+    poses_.poses[body] = *world_from_body[body];
+  }
+  return update(poses_, [&demand](std::size_t, const TrackedPair&) { return demand; }, end);
+}
+
+CycleCounts SceneTracker::update(const BodyPoses& poses, const DemandOf& demand_of,
+                                 WorkLimit::Clock::time_point end) {
+  requireCount("poses", poses.newest.size(), body_count_, "bodies");
+  begin();
+  near_->update(poses, largest_retired_id_);
+  if (near_revision_ != near_->revision()) refreshPairs();
+  const auto locate_pair = [&](std::size_t index) { return locate(poses, *pairs_[index]->origin); };
+  return runCycle(pairs_.size(), demand_of, locate_pair, end);
 }
 
 CycleCounts SceneTracker::update(const std::vector<PairDemand>& demand, const Locate& locate,
                                  WorkLimit::Clock::time_point end) {
-  requireCount("demands", demand.size(), pairs_.size(), "pairs");
-  if (std::exchange(interrupted_, true)) {
-    for (auto& pair : pairs_) pair->discard();
-  }
-  CycleCounts counts;
-  choosePairs(demand, locate, counts);
-  solver_->begin(to_solve_);
-  if (end == kNoCycleEnd) {
-    solver_->solveAll();
-  } else {
-    solver_->solveUntil(end);
-  }
-  for (auto& pair : pairs_) {
-    if (pair->demand.due) pair->watchWarning();
-  }
-  count(counts);
-  interrupted_ = false;
-  return counts;
+  requireCount("demands", demand.size(), listed_, "pairs");
+  begin();
+  const auto demand_of = [&](std::size_t index, const TrackedPair&) { return demand[index]; };
+  return runCycle(listed_, demand_of, locate, end);
 }
 
-void SceneTracker::choosePairs(const std::vector<PairDemand>& demand, const Locate& locate,
-                               CycleCounts& counts) {
+PairInput SceneTracker::locate(const BodyPoses& poses, const ScenePair& pair) const {
+  const std::int32_t newest_a = poses.newest[pair.body_a];
+  const std::int32_t newest_b = poses.newest[pair.body_b];
+  PairInput input;
+  input.fixed = newest_a == BodyPoses::kFixed && newest_b == BodyPoses::kFixed;
+  input.located = newest_a != BodyPoses::kUnknown && newest_b != BodyPoses::kUnknown;
+  if (!input.located) return input;
+  const std::int32_t common = newest_a == BodyPoses::kFixed   ? newest_b
+                              : newest_b == BodyPoses::kFixed ? newest_a
+                                                              : std::min(newest_a, newest_b);
+  // A body whose pose is known only from later on may be anywhere at that time.
+  input.located = input.fixed || common >= std::max(poses.oldest[pair.body_a], poses.oldest[pair.body_b]);
+  if (!input.located) return input;
+  const auto time = static_cast<std::size_t>(std::max(common, 0));
+  input.time = input.fixed ? poses.now : poses.times[time];
+  input.a_from_b = poses.relative ? poses.relative(pair.body_a, pair.body_b, time)
+                                  : poses.pose(pair.body_a, time).inverse(Eigen::Isometry) *
+                                        poses.pose(pair.body_b, time);
+  return input;
+}
+
+void SceneTracker::begin() {
+  if (!std::exchange(interrupted_, true)) return;
+  for (auto& pair : pairs_) pair->discard();
+  near_->recover();
+}
+
+template <typename Demand, typename LocatePair>
+CycleCounts SceneTracker::runCycle(std::size_t count, const Demand& demand_of, const LocatePair& locate,
+                                   WorkLimit::Clock::time_point end) {
+  CycleCounts counts;
   to_solve_.clear();
-  for (std::size_t index = 0; index < pairs_.size(); ++index) {
+  for (std::size_t index = 0; index < count; ++index) {
     TrackedPair& pair = *pairs_[index];
     const bool was_watched = pair.demand.watched;
-    pair.demand = pair.origin->enabled ? demand[index] : PairDemand{};
+    pair.demand = pair.origin->enabled ? demand_of(index, pair) : PairDemand{};
     if (!pair.demand.watched) {
       pair.warning_changed = false;
       if (was_watched) pair.stopWatching();
@@ -217,14 +278,31 @@ void SceneTracker::choosePairs(const std::vector<PairDemand>& demand, const Loca
     }
     if (pair.demand.due && pair.locate(locate(index), options_.stop)) to_solve_.push_back(&pair);
   }
+  solver_->begin(to_solve_);
+  if (end == kNoCycleEnd) {
+    solver_->solveAll();
+  } else {
+    solver_->solveUntil(end);
+  }
+  for (std::size_t index = 0; index < count; ++index) {
+    if (pairs_[index]->demand.due) pairs_[index]->watchWarning();
+  }
+  this->count(count, counts);
+  interrupted_ = false;
+  return counts;
 }
 
-void SceneTracker::count(CycleCounts& counts) const {
-  for (const auto& pair : pairs_) {
-    if (!pair->demand.due) continue;
-    counts.repeated += pair->repeated ? 1 : 0;
-    counts.beyond_cutoff += pair->state == PairState::BeyondCutoff ? 1 : 0;
-    counts.not_located += pair->state == PairState::NotLocated ? 1 : 0;
+const OtherPairs& SceneTracker::others() const {
+  return near_->others();
+}
+
+void SceneTracker::count(std::size_t pairs, CycleCounts& counts) const {
+  for (std::size_t index = 0; index < pairs; ++index) {
+    const TrackedPair& pair = *pairs_[index];
+    if (!pair.demand.due) continue;
+    counts.repeated += pair.repeated ? 1 : 0;
+    counts.beyond_cutoff += pair.state == PairState::BeyondCutoff ? 1 : 0;
+    counts.not_located += pair.state == PairState::NotLocated ? 1 : 0;
   }
   for (TrackedPair* pair : to_solve_) {
     if (!pair->solved()) continue;  // stopped before its turn

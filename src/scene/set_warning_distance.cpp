@@ -4,7 +4,7 @@
 
 #include "base/number_text.h"
 #include "concave_distance/base/error.h"
-#include "matching_pairs.h"
+#include "rule_edits.h"
 
 namespace concave_distance {
 namespace {
@@ -23,14 +23,10 @@ std::vector<std::string> setWarningDistance(Scene& scene, const std::string& pat
     requireLength("warning_distance", *distance);
     requireLength("warning_hysteresis", hysteresis);
   }
-  std::vector<std::string> names;
-  for (const std::size_t i : detail::matchingPairs(scene, pattern)) {
-    names.push_back(scene.pairs[i].name);
-    PairSettings& settings = scene.pairs.edit(i).settings;
+  return detail::changeMatchingPairs(scene, pattern, [&](const std::string&, bool&, PairSettings& settings) {
     settings.warning_distance = distance;
     if (distance) settings.warning_hysteresis = hysteresis;
-  }
-  return names;
+  });
 }
 
 }  // namespace concave_distance

@@ -10,10 +10,6 @@ namespace {
 constexpr std::uint64_t kMostSwapsEach = 32;
 constexpr std::size_t kFewNew = 32;  // boxes that appear at once and are still sorted in one by one
 
-SlotPair ordered(std::uint32_t a, std::uint32_t b) {
-  return a < b ? SlotPair{a, b} : SlotPair{b, a};
-}
-
 }  // namespace
 
 std::size_t SlotPairSet::homeOf(std::uint64_t key) const {
@@ -162,7 +158,7 @@ bool SweepAndPrune::sort(std::size_t axis) {
 // Each two ends change their order at most once, so that a pair begins or ends at most once, too.
 void SweepAndPrune::swap(const End& passing, const End& passed) {
   if (passing.is_upper == passed.is_upper) return;
-  const SlotPair pair = ordered(passing.slot, passed.slot);
+  const SlotPair pair = slotPair(passing.slot, passed.slot);
   if (passing.is_upper) {
     if (overlaps_.erase(pair)) ended_.push_back(pair);
   } else if (doOverlap(pair) && overlaps_.insert(pair)) {
@@ -189,7 +185,7 @@ void SweepAndPrune::sortAnew() {
       continue;
     }
     for (const std::uint32_t slot : active_) {
-      const SlotPair pair = ordered(slot, end.slot);
+      const SlotPair pair = slotPair(slot, end.slot);
       if (doOverlap(pair)) others_.insert(pair);
     }
     active_.push_back(end.slot);

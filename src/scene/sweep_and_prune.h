@@ -14,6 +14,10 @@ struct SlotPair {
   std::uint32_t b = 0;
 };
 
+inline SlotPair slotPair(std::uint32_t a, std::uint32_t b) {
+  return a < b ? SlotPair{a, b} : SlotPair{b, a};
+}
+
 /// A set of pairs of slots by hash: open addressing in one block, so that nothing is allocated once it has
 /// its size.
 class SlotPairSet {

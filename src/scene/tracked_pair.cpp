@@ -15,9 +15,14 @@ constexpr double kLeastExpected = 1e-4;  // s that a pair is expected to take af
 }  // namespace
 
 TrackedPair::TrackedPair(const Scene& scene, std::size_t index, std::uint64_t first_id)
-    : origin(scene.pairs.share(index)),
-      body_a(scene.bodies.share(origin->body_a)),
-      body_b(scene.bodies.share(origin->body_b)),
+    : TrackedPair(scene.pairs.share(index), scene.bodies.share(scene.pairs[index].body_a),
+                  scene.bodies.share(scene.pairs[index].body_b), first_id) {}
+
+TrackedPair::TrackedPair(std::shared_ptr<const ScenePair> pair, std::shared_ptr<const SceneBody> a,
+                         std::shared_ptr<const SceneBody> b, std::uint64_t first_id)
+    : origin(std::move(pair)),
+      body_a(std::move(a)),
+      body_b(std::move(b)),
       effects(body_a->mesh, body_b->mesh, inContact(body_a->material, body_b->material)),
       largest_id(first_id) {
   takeSettings();
@@ -41,17 +46,27 @@ bool TrackedPair::locate(const PairInput& next, const std::atomic<bool>* stop) {
     const double bound =
         distanceLowerBound(body_a->bounds, body_b->bounds, input.a_from_b, settings.tracker.margin());
     if (bound > settings.tracker.cutoff) {
-      restart();
-      box_bound = bound;
-      endWithoutAnswer(PairState::BeyondCutoff);
+      stayBeyond(bound);
       return false;
     }
   }
+  beyond_since_.reset();
   prepare(stop);
   const bool same_input = input.fixed ? solved_input_.a_from_b.matrix() == input.a_from_b.matrix()
                                       : solved_input_.time == input.time;
   repeated = was_solved && same_input && !must_solve_;
   return !repeated;
+}
+
+// Its niches are kept for a while, in case that it comes back.
+void TrackedPair::stayBeyond(double bound) {
+  constexpr double kKeptSeconds = 2.0;
+  if (!beyond_since_) beyond_since_ = input.time;
+  if (!(std::abs(input.time - *beyond_since_) <= kKeptSeconds) && tracker_) tracker_->reset();
+  effects.reset();
+  must_solve_ = true;
+  box_bound = bound;
+  endWithoutAnswer(PairState::BeyondCutoff);
 }
 
 void TrackedPair::solve() {
@@ -163,10 +178,14 @@ void TrackedPair::discard() {
   must_solve_ = true;
 }
 
-void TrackedPair::adopt(std::shared_ptr<const ScenePair> pair, bool settings_changed) {
+void TrackedPair::adopt(std::shared_ptr<const ScenePair> pair, std::shared_ptr<const SceneBody> a,
+                        std::shared_ptr<const SceneBody> b, bool settings_changed) {
+  const double margin = settings.tracker.margin();
   origin = std::move(pair);
+  body_a = std::move(a);
+  body_b = std::move(b);
   takeSettings();
-  stale_parameters_ = stale_parameters_ || settings_changed;
+  stale_parameters_ = stale_parameters_ || settings_changed || margin != settings.tracker.margin();
 }
 
 // Gives tracker and effects what the settings and the demand say; makes them when there are none.

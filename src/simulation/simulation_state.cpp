@@ -40,7 +40,10 @@ SimulatedBodySettings settingsOf(const SceneBody& body, const SimulationSettings
 
 }  // namespace
 
-Simulation::State::State(const Scene& scene, const SimulationSettings& given) : settings(given) {
+Simulation::State::State(const Scene& with_rules, const SimulationSettings& given) : settings(given) {
+  // Each pair is simulated whether it is near or not.
+  Scene scene = with_rules;
+  scene.pairs = allPairs(with_rules);
   settings.validate("simulation");
   for (const SimulatedBodySettings& body : settings.bodies) {
     if (!scene.findBody(body.body)) {

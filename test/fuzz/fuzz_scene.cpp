@@ -12,7 +12,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         "<robot name='r'><link name='a'><collision><geometry><box size='1 1 "
         "1'/></geometry></collision></link></robot>";
     const Scene scene = loadSceneText(test::textOf(data, size), "fuzz", test::fuzzFolder().path(), options);
-    for (const ScenePair& pair : scene.pairs) {
+    for (const ScenePair& pair : allPairs(scene)) {
       if (pair.body_a >= scene.bodies.size() || pair.body_b >= scene.bodies.size())
         test::broken("pairs of bodies");
       pair.settings.tracker.validate("fuzz");

@@ -12,7 +12,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     options.geometry = size % 8 == 0 ? GeometrySource::Collision : GeometrySource::Visual;
     options.metric_memory_limit = 0;
     const Scene scene = loadRobotScene(test::textOf(data, size), "fuzz", options);
-    for (const ScenePair& pair : scene.pairs) {
+    for (const ScenePair& pair : allPairs(scene)) {
       if (pair.body_a >= scene.bodies.size() || pair.body_b >= scene.bodies.size())
         test::broken("pairs of bodies");
     }

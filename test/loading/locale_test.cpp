@@ -113,7 +113,7 @@ class LocaleTest : public test::SceneTest {
       if (body.inertia) add(body.inertia->mass), addAll(body.inertia->centre_in_body);
       for (const double value : {body.material.youngs_modulus, body.material.poissons_ratio}) add(value);
     }
-    for (const ScenePair& pair : scene.pairs) {
+    for (const ScenePair& pair : allPairs(scene)) {
       add(pair.name);
       for (const auto& parameter : pairParameters()) add(toText(parameter.get(pair.settings)));
     }

@@ -113,7 +113,7 @@ TEST_F(OwnRobot, AutomaticCutoffIsAFifthOfTheRobotsDiagonal) {
   ASSERT_TRUE(scene.automatic_cutoff);
   EXPECT_GE(*scene.automatic_cutoff, wanted - 1e-9);
   EXPECT_LE(*scene.automatic_cutoff, 1.1 * wanted) << "rounded up to two digits";
-  for (const ScenePair& pair : scene.pairs) {
+  for (const ScenePair& pair : allPairs(scene)) {
     EXPECT_EQ(pair.settings.tracker.cutoff, *scene.automatic_cutoff);
   }
   EXPECT_TRUE(hasNote(scene, "fifth of the robot's diagonal"));
@@ -209,10 +209,10 @@ TEST_F(OwnRobot, AnSrdfOfMoveItLeavesThePairsThatItDoesNotDisable) {
   const std::string source = CONCAVE_DISTANCE_SOURCE_DIR;
   options.package_locator = [&](const std::string&) { return source; };
   const std::string urdf = test::contentOf(source + "/urdf/kr5.urdf");
-  EXPECT_EQ(loadAlone(urdf).pairs.size(), 15U) << "21 pairs of 7 links, 6 of them adjacent";
+  EXPECT_EQ(allPairs(loadAlone(urdf)).size(), 15U) << "21 pairs of 7 links, 6 of them adjacent";
   options.descriptions["robot_description_semantic"] = test::contentOf(source + "/test/data/srdf/kr5.srdf");
   const Scene scene = loadAlone(urdf);
-  EXPECT_EQ(scene.pairs.size(), 10U) << "5 that are not adjacent are disabled";
+  EXPECT_EQ(allPairs(scene).size(), 10U) << "5 that are not adjacent are disabled";
   EXPECT_FALSE(scene.findPair("forearm", "palm"));
   EXPECT_TRUE(scene.problems.empty());
 }

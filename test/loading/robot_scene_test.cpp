@@ -260,7 +260,7 @@ TEST_F(RobotScene, SrdfIsReadFromAFileAndForARobotWithPrefix) {
   folder.write("arm.srdf", "<robot name='arm'><disable_collisions link1='a' link2='b'/></robot>");
   const Scene scene =
       load("robots: [{description: robot_description, srdf: arm.srdf, prefix: l_, max_edge_length: 9}]");
-  EXPECT_TRUE(scene.pairs.empty());
+  EXPECT_TRUE(allPairs(scene).empty());
   EXPECT_EQ(scene.bodies.size(), 2U);
 }
 
@@ -498,10 +498,10 @@ TEST(RobotSceneAlone, ReadsTheSrdfBesideTheRobotDescription) {
   options.metric_memory_limit = 0;
   const std::string urdf = robot(boxLink("a") + bareLink("x") + boxLink("b") + joint("continuous", "a", "x") +
                                  joint("continuous", "x", "b"));
-  EXPECT_EQ(loadRobotScene(urdf, "robot_description", options).pairs.size(), 1U);
+  EXPECT_EQ(allPairs(loadRobotScene(urdf, "robot_description", options)).size(), 1U);
   options.descriptions["robot_description_semantic"] =
       "<robot name='arm'><disable_collisions link1='a' link2='b'/></robot>";
-  EXPECT_EQ(loadRobotScene(urdf, "robot_description", options).pairs.size(), 0U);
+  EXPECT_EQ(allPairs(loadRobotScene(urdf, "robot_description", options)).size(), 0U);
 }
 
 }  // namespace

@@ -21,7 +21,7 @@ class SceneEffects : public test::SceneTest {
   EffectSettings effectsOf(const std::string& effects) const {
     const Scene scene = load(kTwoBalls + "defaults: {effects: " + effects + "}\n");
     EXPECT_TRUE(scene.problems.empty());
-    return scene.pairs.at(0).settings.effects;
+    return allPairs(scene).at(0).settings.effects;
   }
   void expectRefused(const std::string& effects, const std::string& key, const std::string& allowed) const {
     const std::string text = refusal(kTwoBalls + "defaults: {effects: " + effects + "}\n");
@@ -64,7 +64,7 @@ TEST_F(SceneEffects, APairsEffectsAreLaidOverTheDefaults) {
   const Scene scene = load(kTwoBalls +
                            "defaults: {effects: {normal_force: hertz}}\n"
                            "pairs:\n  - {between: [a, b], effects: {friction: bristle}}\n");
-  const EffectSettings& effects = scene.pairs.at(0).settings.effects;
+  const EffectSettings effects = allPairs(scene).at(0).settings.effects;
   EXPECT_EQ(effects.normal_force->model, NormalForceModel::Hertz);
   EXPECT_EQ(effects.friction.model, FrictionModel::Bristle);
   const Scene without = load(kTwoBalls +
@@ -138,7 +138,7 @@ TEST_F(SceneEffects, TheModelThatAParameterIsLaidOverCounts) {
   const std::string defaults = "defaults: {effects: {normal_force: {model: spring_dashpot, stiffness: 5}}}\n";
   const Scene scene =
       load(kTwoBalls + defaults + "pairs:\n  - {between: [a, b], effects: {normal_force: {damping: 3}}}\n");
-  EXPECT_EQ(scene.pairs.at(0).settings.effects.normal_force->damping, 3.0);
+  EXPECT_EQ(allPairs(scene).at(0).settings.effects.normal_force->damping, 3.0);
   const std::string text =
       refusal(kTwoBalls + defaults + "pairs:\n  - {between: [a, b], effects: {normal_force: {radius: 1}}}\n");
   EXPECT_TRUE(mentions(text, "and the model is spring_dashpot")) << text;
@@ -177,7 +177,7 @@ TEST_F(SceneEffects, NoTextFromOutsideDoesHarm) {
   EXPECT_THROW(setEffects(scene, std::string(1'000'000, '['), "none"), Error);
   EXPECT_THROW(setEffects(scene, repeated("*a", 1'000'000), "none"), Error);
   EXPECT_THROW(setEffects(scene, std::string(4097, '*'), "interference"), Error) << "it would match";
-  for (const ScenePair& pair : scene.pairs) EXPECT_FALSE(pair.settings.effects.any());
+  for (const ScenePair& pair : allPairs(scene)) EXPECT_FALSE(pair.settings.effects.any());
 }
 
 TEST_F(SceneEffects, AMaterialIsNamedOrSpelledOut) {

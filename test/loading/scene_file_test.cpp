@@ -62,7 +62,7 @@ class SceneFile : public test::SceneTest {
 TEST_F(SceneFile, EmptySceneIsAScene) {
   const Scene scene = load("bodies: []\n");
   EXPECT_TRUE(scene.bodies.empty());
-  EXPECT_TRUE(scene.pairs.empty());
+  EXPECT_TRUE(allPairs(scene).empty());
   EXPECT_TRUE(scene.problems.empty());
 }
 
@@ -387,8 +387,8 @@ TEST_F(SceneFile, EverySettingReachesItsParameter) {
       "        elite_count: 2\n        sharing_radius: auto\n        fitness_epsilon: 0\n"
       "        random_immigrants: 4\n        conserve_niches: false\n        evaluation_limit: 5000000000\n"
       "      warm: {population_size: 10, niching: deterministic_crowding}\n");
-  ASSERT_EQ(scene.pairs.size(), 1U);
-  const PairSettings& settings = scene.pairs[0].settings;
+  ASSERT_EQ(allPairs(scene).size(), 1U);
+  const PairSettings settings = allPairs(scene)[0].settings;
   const TrackerParameters& tracker = settings.tracker;
   EXPECT_EQ(tracker.accuracy, AccuracyLevel::Nodes);
   EXPECT_EQ(tracker.cutoff, 2.0);
@@ -493,7 +493,7 @@ TEST_F(SceneFile, WordsStandForNothing) {
       kBall +
       "  - {name: box, box: {size: [1, 1, 1]}, max_edge_length: 100}\n"
       "defaults: {warning_distance: none, cutoff: none, expert: {cold: {mutation_probability: auto}}}\n");
-  const PairSettings& settings = scene.pairs.at(0).settings;
+  const PairSettings settings = allPairs(scene).at(0).settings;
   EXPECT_EQ(settings.warning_distance, std::nullopt);
   EXPECT_EQ(settings.tracker.cutoff, std::numeric_limits<double>::infinity());
   EXPECT_EQ(settings.tracker.cold.mutation_probability, std::nullopt);

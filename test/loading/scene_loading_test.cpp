@@ -52,7 +52,7 @@ std::string fingerprint(const Scene& scene) {
       text.append(reinterpret_cast<const char*>(t.data()), sizeof(TriangleNodes));
     }
   }
-  for (const ScenePair& pair : scene.pairs) {
+  for (const ScenePair& pair : allPairs(scene)) {
     text += pair.name + " " + std::to_string(pair.body_a) + " " + std::to_string(pair.body_b) + "\n";
   }
   for (const SceneProblem& problem : scene.problems) text += problem.where + " " + problem.message + "\n";
@@ -183,10 +183,11 @@ TEST_F(SceneLoading, WhatIsBeyondALimitIsRefusedWithTheFigure) {
   EXPECT_TRUE(fine.bodies.empty());
   EXPECT_TRUE(mentions(fine.problems.at(0).message, "search grid of about 2.2"));
   EXPECT_TRUE(mentions(fine.problems.at(0).message, "the limit is 1000 nodes"));
-  options.limits.pairs = 0;
-  EXPECT_THROW(load(bodies), Error);
+  options.limits.pairs = 0;  // of named pairs, and of those near at one time
+  EXPECT_EQ(allPairs(load(bodies)).size(), 1U);
+  EXPECT_THROW(load(bodies + "pairs: [{between: [a, b]}]\n"), Error);
   options.limits.pairs = 1;
-  EXPECT_EQ(load(bodies).pairs.size(), 1U);
+  EXPECT_EQ(load(bodies + "pairs: [{between: [a, b]}]\n").pairs.size(), 1U);
   options.limits.bodies = 1;
   EXPECT_THROW(load(bodies), Error);
 }
@@ -262,7 +263,7 @@ TEST(SceneOfThePackage, RobotsLoadWithoutProblemsAndWatchAllButNeighbours) {
     // A row of n links has n (n - 1) / 2 pairs, n - 1 of them neighbours.
     const std::size_t n = robot == "wam" ? 8 : 7;
     EXPECT_EQ(scene.bodies.size(), n);
-    EXPECT_EQ(scene.pairs.size(), n * (n - 1) / 2 - (n - 1));
+    EXPECT_EQ(allPairs(scene).size(), n * (n - 1) / 2 - (n - 1));
   }
 }
 
@@ -272,7 +273,7 @@ TEST(SceneOfThePackage, ConfiguredScenesLoadWithoutProblems) {
   for (const std::string name : {"contact", "insertion", "interactive", "robot"}) {
     const Scene scene = loadSceneFile(CONCAVE_DISTANCE_SOURCE_DIR "/config/" + name + ".yaml", options);
     EXPECT_TRUE(scene.problems.empty()) << scene.problems.front().message;
-    EXPECT_FALSE(scene.pairs.empty()) << name;
+    EXPECT_FALSE(allPairs(scene).empty()) << name;
   }
 }
 

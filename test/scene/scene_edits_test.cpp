@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
+
 #include "concave_distance/base/error.h"
+#include "scene/set_warning_distance.h"
 
 namespace concave_distance::scene_edits_test {
 namespace {
@@ -26,7 +29,7 @@ Scene threeBodies() {
 
 std::vector<std::string> names(const Scene& scene) {
   std::vector<std::string> result;
-  for (const ScenePair& pair : scene.pairs) {
+  for (const ScenePair& pair : allPairs(scene)) {
     result.push_back(pair.name);
   }
   return result;
@@ -58,7 +61,7 @@ TEST(AddBody, PairsWithThoseNamedOnceEach) {
 TEST(AddBody, AddsABodyThatIsWatchedAgainstNothing) {
   Scene scene = threeBodies();
   EXPECT_TRUE(addBody(scene, body("cup", "cup"), {{}, true}, {}).names.empty());
-  EXPECT_EQ(scene.pairs.size(), 2U);
+  EXPECT_EQ(names(scene).size(), 2U);
   EXPECT_THROW(addBody(scene, body("mug", "mug"), {{"table"}, true}, {}), Error);
 }
 
@@ -73,14 +76,16 @@ std::string refusalOfBody(Scene& scene, const PairPartners& partners) {
 
 TEST(AddBody, RefusesWhatWouldBeBeyondALimitWithTheFigureAndAddsNothing) {
   Scene scene = threeBodies();
-  scene.limits.pairs = 4;
-  const std::string pairs = refusalOfBody(scene, {});
-  EXPECT_NE(pairs.find("3 new pairs besides the 2"), std::string::npos) << pairs;
-  EXPECT_NE(pairs.find("the limit is 4"), std::string::npos) << pairs;
+  scene.limits.pairs = 2;
+  const std::string pairs = refusalOfBody(scene, {{"arm", "table", "shelf"}, false});
+  EXPECT_NE(pairs.find("3 new named pairs besides the 0"), std::string::npos) << pairs;
+  EXPECT_NE(pairs.find("the limit is 2"), std::string::npos) << pairs;
   EXPECT_EQ(scene.bodies.size(), 3U);
   EXPECT_EQ(refusalOfBody(scene, {{"arm", "table"}, false}), "accepted");
-  EXPECT_EQ(scene.pairs.size(), 4U);
+  EXPECT_EQ(scene.pairs.size(), 2U);
   EXPECT_THROW(setPairEnabled(scene, {"", "table", "shelf"}, true, {}), Error);
+  removeBody(scene, "cup");
+  EXPECT_EQ(refusalOfBody(scene, {}), "accepted") << "pairs by rule take no place until they are near";
   removeBody(scene, "cup");
   scene.limits.bodies = 3;
   EXPECT_NE(refusalOfBody(scene, {{}, true}).find("3 bodies, the limit"), std::string::npos);
@@ -93,8 +98,8 @@ TEST(RemoveBody, LeavesNamesAndPairsThatAreFoundByTheirNewPlaces) {
   removeBody(scene, "arm");
   EXPECT_EQ(before.bodies.size(), 4U) << "a copy is not changed with it";
   EXPECT_EQ(names(scene), (std::vector<std::string>{"cup/table", "cup/shelf"}));
-  ASSERT_TRUE(scene.findPair("shelf", "cup").has_value());
-  const ScenePair& pair = scene.pairs[*scene.findPair("shelf", "cup")];
+  ASSERT_TRUE(pairOf(scene, 1, 2).has_value());
+  const ScenePair pair = *pairOf(scene, 1, 2);
   EXPECT_EQ(scene.bodies[pair.body_a].name, "cup");
   EXPECT_EQ(scene.bodies[pair.body_b].name, "shelf");
   EXPECT_FALSE(scene.findBody("arm").has_value());
@@ -124,7 +129,7 @@ TEST(AddBody, RefusesTakenBadAndUnknownNamesAndChangesNothing) {
   EXPECT_THROW(addBody(scene, body("cup", "x"), {{"nobody"}, false, {}, {}}, {}), Error);
   EXPECT_THROW(addBody(scene, body("cup", "x"), {{"cup"}, false, {}, {}}, {}), Error);
   EXPECT_EQ(scene.bodies.size(), 3U);
-  EXPECT_EQ(scene.pairs.size(), 2U);
+  EXPECT_EQ(names(scene).size(), 2U);
 }
 
 TEST(AddBody, LeavesOutWhatCannotMoveAgainstItAndWhatItMayTouch) {
@@ -151,9 +156,10 @@ TEST(RemoveBody, LeavesRobotLinksUnlessAsked) {
 TEST(RemoveBody, TakesItsPairsAndKeepsTheOthersRight) {
   Scene scene = threeBodies();
   EXPECT_EQ(removeBody(scene, "table"), std::vector<std::string>{"table/arm"});
-  ASSERT_EQ(scene.pairs.size(), 1U);
-  EXPECT_EQ(scene.bodies[scene.pairs[0].body_a].name, "shelf");
-  EXPECT_EQ(scene.bodies[scene.pairs[0].body_b].name, "arm");
+  const PairList left = allPairs(scene);
+  ASSERT_EQ(left.size(), 1U);
+  EXPECT_EQ(scene.bodies[left[0].body_a].name, "shelf");
+  EXPECT_EQ(scene.bodies[left[0].body_b].name, "arm");
   EXPECT_THROW(removeBody(scene, "table"), Error);
 }
 
@@ -162,7 +168,7 @@ TEST(SetPairEnabled, FindsPairsByNameAndByBodiesInEitherOrder) {
   EXPECT_EQ(setPairEnabled(scene, {"table/arm", "", ""}, false, {}), Names{"table/arm"});
   EXPECT_FALSE(scene.pairs[0].enabled);
   EXPECT_EQ(setPairEnabled(scene, {"", "arm", "table"}, true, {}), Names{"table/arm"});
-  EXPECT_TRUE(scene.pairs[0].enabled);
+  EXPECT_TRUE(scene.pairs[0].enabled) << "named, so listed";
   EXPECT_THROW(setPairEnabled(scene, {"nobody/arm", "", ""}, true, {}), Error);
   EXPECT_THROW(setPairEnabled(scene, {"", "arm", "nobody"}, true, {}), Error);
   EXPECT_THROW(setPairEnabled(scene, {"", "arm", "arm"}, true, {}), Error);
@@ -175,6 +181,73 @@ TEST(SetPairEnabled, CreatesAPairThatAFilterLeftOut) {
   EXPECT_THROW(setPairEnabled(scene, {"", "table", "shelf"}, false, settings), Error);
   EXPECT_EQ(setPairEnabled(scene, {"", "table", "shelf"}, true, settings), Names{"table/shelf"});
   EXPECT_EQ(scene.pairs.back().settings.warning_distance, 0.5);
+}
+
+// Settings of groups and patterns belong to a rule, not to a list.
+TEST(PairRules, TakeSettingsAndNamesByPatternWithoutAList) {
+  Scene scene;
+  for (int i = 0; i < 8; ++i) {
+    addBody(scene, body("b" + std::to_string(i), "f" + std::to_string(i)), {}, {});
+  }
+  EXPECT_EQ(countRuledPairs(scene), 28U);
+  EXPECT_EQ(setPairEnabled(scene, {"b7/*", "", ""}, false, {}).size(), 7U);
+  EXPECT_EQ(countRuledPairs(scene), 21U);
+  EXPECT_EQ(setWarningDistance(scene, "b1/*", 0.25, 0.0).size(), 7U);
+  EXPECT_TRUE(scene.pairs.empty());
+  for (const ScenePair& pair : allPairs(scene)) {
+    const bool has_1 = pair.body_a == 1 || pair.body_b == 1;
+    const bool has_7 = pair.body_a == 7 || pair.body_b == 7;
+    EXPECT_EQ(pair.settings.warning_distance.has_value(), has_1) << pair.name;
+    EXPECT_EQ(pair.enabled, !has_7) << pair.name;
+    EXPECT_GT(pair.body_a, pair.body_b) << "the added one is A";
+  }
+  // One that is named is listed, with what the rules have said of it.
+  EXPECT_EQ(setPairEnabled(scene, {"b7/b1", "", ""}, true, {}), Names{"b7/b1"});
+  ASSERT_EQ(scene.pairs.size(), 1U);
+  EXPECT_EQ(scene.pairs[0].settings.warning_distance, 0.25);
+  EXPECT_EQ(countRuledPairs(scene), 21U);
+  // A body of the same settings as those that were added needs no class of its own.
+  addBody(scene, body("late", "late"), {}, {});
+  EXPECT_EQ(countRuledPairs(scene), 21U + 8U);
+  EXPECT_EQ(countRuledPairs(scene, {false, true, false, false, false, false, false, true, false}), 15U + 6U);
+}
+
+// The number that is counted by classes is that of the pairs tried one by one.
+TEST(PairRules, CountWhatTheyWatch) {
+  for (unsigned seed = 1; seed <= 40; ++seed) {
+    std::mt19937 engine(seed);
+    const auto below = [&](unsigned n) { return engine() % n; };
+    Scene scene;
+    for (int i = 0; i < 12; ++i) {
+      PairPartners partners;
+      const std::string name = "b" + std::to_string(i);
+      if (i > 2 && below(3) == 0) partners.names = {"b" + std::to_string(below(static_cast<unsigned>(i))), "b?"};
+      if (i > 2 && partners.names.empty() && below(3) == 0) partners.may_touch = {"b1", "b2"};
+      partners.none = partners.names.empty() && partners.may_touch.empty() && below(6) == 0;
+      PairSettings settings;
+      if (below(4) == 0) settings.warning_distance = 0.1 * below(3);
+      addBody(scene, body(name, "f" + std::to_string(below(9))), partners, settings);
+      if (below(5) == 0) scene.rigid.join("f" + std::to_string(below(9)), "f" + std::to_string(below(9)));
+    }
+    for (int edit = 0; edit < 4; ++edit) {
+      const std::string digit = std::to_string(below(10));
+      try {
+        if (edit % 2 == 0) {
+          setPairEnabled(scene, {"", "b" + digit, "b[2-8]"}, below(2) == 0, {});
+        } else {
+          setPairEnabled(scene, {"b" + digit + "/*", "", ""}, below(2) == 0, {});
+        }
+        if (below(3) == 0) removeBody(scene, "b" + digit);
+      } catch (const Error&) {
+        // No such pair or body now.
+      }
+    }
+    std::size_t count = 0;
+    for (const ScenePair& pair : allPairs(scene)) {
+      count += pair.enabled && !scene.pairs.find(pair.body_a, pair.body_b) ? 1 : 0;
+    }
+    EXPECT_EQ(countRuledPairs(scene), count) << "seed " << seed;
+  }
 }
 
 // Two fingers on a hand, a table and a shelf in the world; the group names a body that is not there, too.
@@ -226,8 +299,8 @@ TEST(SetPairEnabled, TakesGroupsAndPatternsForBodies) {
   addBody(scene, body("cup", "cup"), {{"fingers", "table"}}, {});
   EXPECT_EQ(setPairEnabled(scene, {"", "fingers", "cup"}, false, {}),
             Names({"cup/finger_l", "cup/finger_r"}));
-  EXPECT_FALSE(scene.pairs[*scene.pairs.find("cup/finger_l")].enabled);
-  EXPECT_TRUE(scene.pairs[*scene.pairs.find("cup/table")].enabled);
+  EXPECT_FALSE(findPairNamed(scene, "cup/finger_l")->enabled);
+  EXPECT_TRUE(findPairNamed(scene, "cup/table")->enabled);
   EXPECT_EQ(setPairEnabled(scene, {"cup/*", "", ""}, false, {}),
             Names({"cup/table", "cup/finger_l", "cup/finger_r"}));
   // What is not there yet is created where no filter of a robot or of rigid frames can have left it out.

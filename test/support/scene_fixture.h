@@ -70,9 +70,10 @@ inline std::vector<std::string> bodyNames(const Scene& scene) {
   return names;
 }
 
+/// The listed ones first, then those by rule.
 inline std::vector<std::string> pairNames(const Scene& scene) {
   std::vector<std::string> names;
-  for (const ScenePair& pair : scene.pairs) names.push_back(pair.name);
+  for (const ScenePair& pair : allPairs(scene)) names.push_back(pair.name);
   return names;
 }
 

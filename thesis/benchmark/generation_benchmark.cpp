@@ -185,6 +185,7 @@ Row runRobot(const std::string& folder) {
   const std::string urdf = textOf(folder + "/urdf/wam.urdf");
   options.descriptions["robot_description"] = urdf;
   Scene scene = loadSceneFile(folder + "/config/robot.yaml", options);
+  scene.pairs = allPairs(scene);
   Scene plain = scene;
   PairList pairs;
   for (const ScenePair& pair : scene.pairs) {

@@ -10,9 +10,10 @@ class RigidFrames {
  public:
   void join(const std::string& a, const std::string& b);
   bool areJoined(const std::string& a, const std::string& b) const;
+  /// Returns the frame that stands for all that are joined with this one.
+  std::string rootOf(std::string frame) const;
 
  private:
-  std::string rootOf(std::string frame) const;
   std::map<std::string, std::string> parent_;
 };
 

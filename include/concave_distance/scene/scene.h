@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -17,6 +18,7 @@
 #include "concave_distance/mesh/surface/mass_properties.h"
 #include "concave_distance/scene/broad_phase.h"
 #include "concave_distance/scene/named_list.h"
+#include "concave_distance/scene/pair_rules.h"
 #include "concave_distance/scene/rigid_frames.h"
 #include "concave_distance/scene/scene_limits.h"
 #include "concave_distance/scene/simulation_settings.h"
@@ -25,6 +27,9 @@
 namespace concave_distance {
 
 class BodyPool;
+
+/// Returns a number that no body has had yet.
+std::uint64_t newBodySerial();
 
 /// One rigid piece of a scene. Its frame is a tf frame; the mesh is expressed in it.
 struct SceneBody {
@@ -41,6 +46,13 @@ struct SceneBody {
   bool is_robot_link = false;             ///< of a URDF
   Eigen::Vector4d colour = Eigen::Vector4d(0.6, 0.6, 0.65, 1.0);  ///< red, green, blue, opacity in [0, 1]
   Material material;                                              ///< for contact forces
+  std::string label;  ///< what names of pairs call it; empty: its name
+  /// The same as long as it is this body, whatever of it is edited.
+  std::uint64_t serial = newBodySerial();
+  std::uint32_t pair_class = 0;                     ///< row of Scene::rules
+  std::shared_ptr<const AddedBodyRule> added_rule;  ///< nullptr: it came with the scene
+
+  const std::string& pairLabel() const { return label.empty() ? name : label; }
 };
 
 /// Checks a margin that a person has given for a body.
@@ -62,7 +74,7 @@ struct PairSettings {
 TrackerParameters withMargins(TrackerParameters settings, const SceneBody& a, const SceneBody& b);
 
 struct ScenePair {
-  std::string name;        ///< `<body_a>/<body_b>` unless the scene file names it; letters, digits, _ and /
+  std::string name;        ///< `<label of A>/<label of B>` unless the scene file names it
   std::size_t body_a = 0;  ///< index into Scene::bodies
   std::size_t body_b = 0;
   bool enabled = true;
@@ -112,7 +124,8 @@ struct SceneDefaults {
 
 struct Scene {
   NamedList<SceneBody> bodies;
-  PairList pairs;  ///< enabled ones and those disabled by name; filtered pairs are not listed
+  PairList pairs;   ///< those named by their two bodies, each followed at any distance; not all that there are
+  PairRules rules;  ///< of all others
   std::vector<SceneProblem> problems;
   std::vector<std::string> notes;     ///< repairs and filters applied, one line each
   std::vector<std::string> warnings;  ///< served, but probably mistakes; each with a remedy
@@ -127,8 +140,19 @@ struct Scene {
   SceneLimits limits;                            ///< for edits, too
 
   std::optional<std::size_t> findBody(const std::string& name) const;
-  /// Index of the pair of these bodies, in either order.
+  /// Index of the listed pair of these bodies, in either order.
   std::optional<std::size_t> findPair(const std::string& name_a, const std::string& name_b) const;
 };
+
+/// Returns the pair of two bodies, places in scene.bodies, as the rules give it; nothing where they give none
+/// or the list has it. Its name ends in `_2` and so on where a listed pair has that name.
+std::optional<ScenePair> ruledPair(const Scene& scene, std::size_t body_a, std::size_t body_b);
+/// Returns the pair of two bodies, listed or by the rules.
+std::optional<ScenePair> pairOf(const Scene& scene, std::size_t body_a, std::size_t body_b);
+/// Returns the pair with this name, listed or by the rules.
+std::optional<ScenePair> findPairNamed(const Scene& scene, const std::string& name);
+/// Returns every pair, the listed ones first, for small scenes. O(bodies^2).
+/// @param most it ends after so many
+PairList allPairs(const Scene& scene, std::size_t most = std::numeric_limits<std::size_t>::max());
 
 }  // namespace concave_distance

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "concave_distance/base/work_limit.h"
+#include "concave_distance/scene/body_poses.h"
 #include "concave_distance/scene/cycle_counts.h"
 #include "concave_distance/scene/scene.h"
 #include "concave_distance/scene/tracked_pair.h"
@@ -17,6 +18,7 @@
 namespace concave_distance {
 
 class CycleSolver;
+class NearPairs;
 class NichePreparation;
 
 struct SceneTrackerOptions {
@@ -30,29 +32,39 @@ struct SceneTrackerOptions {
 /// The end of a cycle without one.
 inline constexpr WorkLimit::Clock::time_point kNoCycleEnd = WorkLimit::Clock::time_point::max();
 
-/// Tracks every pair of a scene: leaves out what is beyond its cutoff, solves the rest in parallel and
-/// compares the distances with the warning distances. One thread at a time.
+/// Tracks a scene: finds the pairs that are near each other by the poses of the bodies, solves them in
+/// parallel and compares the distances with the warning distances. Pairs that the scene lists are tracked
+/// at any distance, those that its rules give while they can be within their cutoff or warning distance. One
+/// thread at a time.
 class SceneTracker {
  public:
   using Pairs = std::vector<std::shared_ptr<TrackedPair>>;
   /// Returns where the pair at this place in scene.pairs is. Called in the order of the pairs, by one thread.
   using Locate = std::function<PairInput(std::size_t)>;
+  /// Returns what is wanted of the enabled pair at this place in pairs(). Called likewise.
+  using DemandOf = std::function<PairDemand(std::size_t, const TrackedPair&)>;
 
   explicit SceneTracker(SceneTrackerOptions options = {});
   ~SceneTracker();
   SceneTracker(const SceneTracker&) = delete;
   SceneTracker& operator=(const SceneTracker&) = delete;
 
-  /// Pairs whose bodies are in both scenes go on, warm. The order becomes that of scene.pairs. When it
-  /// throws, the scene before is still tracked.
+  /// Pairs whose bodies are in both scenes go on, warm: a body is the same while its serial and its mesh are.
+  /// When it throws, the scene before is still tracked.
   /// @param settings_changed false: no pair of both scenes has other settings, and none is solved anew
-  /// @throws Error for a pair whose bodies are not two bodies with meshes of the scene
+  /// @throws Error for a body without a mesh, and a listed pair whose bodies are not two of the scene
   void setScene(const Scene& scene, bool settings_changed = true);
-  /// Returns for each pair of a scene its place in pairs() if setScene() would let it go on. @throws
+  /// Returns for each listed pair of a scene its place in pairs() if setScene() would let it go on. @throws
   /// Error as setScene()
   std::vector<std::optional<std::size_t>> placesNow(const Scene& scene) const;
 
-  /// One cycle over all enabled pairs. @param world_from_body one pose for each of scene.bodies, each rigid
+  /// One cycle. @param poses of the scene's bodies, in their order
+  /// @param end as below. A warm cycle in which no pair comes near or leaves allocates nothing.
+  /// @throws Error for another number of bodies than the scene has
+  CycleCounts update(const BodyPoses& poses, const DemandOf& demand_of,
+                     WorkLimit::Clock::time_point end = kNoCycleEnd);
+
+  /// One cycle with the same demand of all enabled pairs. @param world_from_body one pose for each of scene.bodies, each rigid
   /// (rotation orthonormal within 1e-3); empty where it is not known
   /// @param time seconds of these poses, from any beginning
   /// @param demand of each pair
@@ -61,44 +73,57 @@ class SceneTracker {
                      const PairDemand& demand = {true, true, true, false},
                      WorkLimit::Clock::time_point end = kNoCycleEnd);
 
-  /// One cycle. @param demand one per pair, in their order. A pair that is not watched costs nothing and
+  /// One cycle of the listed pairs alone, where poses of bodies are not known: those by rule have none.
+  /// @param demand one per listed pair, in their order. A pair that is not watched costs nothing and
   /// starts cold when it is watched again; one that is watched but not due keeps its state. What belongs to a
   /// disabled pair is ignored.
   /// @param end of the cycle. First the distance of each pair is proven, then niches and effects are added,
   /// in the order of doc/parameters.md ("A cycle has an end"). What there is no time for is put off
   /// (TrackedPair::put_off): the distance is proven, its status says so, niches_complete is false, and later
   /// cycles go on with the list. Answers then depend on the clock. Without an end, one seed gives one answer.
-  /// @throws Error for another number of demands than pairs
+  /// @throws Error for another number of demands than listed pairs
   /// After a cycle that threw, all pairs start cold.
   CycleCounts update(const std::vector<PairDemand>& demand, const Locate& locate,
                      WorkLimit::Clock::time_point end = kNoCycleEnd);
 
-  /// Every pair, or the one at this place in scene.pairs, starts cold in its next cycle. @throws Error when
-  /// there is no such place
+  /// Every pair, or the one at this place in pairs(), starts cold in its next cycle. @throws Error when there
+  /// is no such place
   void restart();
   void restart(std::size_t pair);
 
-  /// Returns the pairs in the order of scene.pairs.
+  /// Returns the listed pairs in the order of scene.pairs, then those by rule that the last cycle found near.
+  /// One that has left is there for one more cycle.
   const Pairs& pairs() const { return pairs_; }
+  std::size_t listedCount() const { return listed_; }
+  /// Counts the pairs by rule that pairs() does not have, after the last cycle.
+  const OtherPairs& others() const;
   /// Pairs that left the scene with an alert raised, which setScene took back; reported once.
   Pairs takeRetired();
 
  private:
-  void choosePairs(const std::vector<PairDemand>& demand, const Locate& locate, CycleCounts& counts);
+  void begin();
+  void refreshPairs();
+  template <typename Demand, typename LocatePair>
+  CycleCounts runCycle(std::size_t count, const Demand& demand_of, const LocatePair& locate,
+                       WorkLimit::Clock::time_point end);
+  PairInput locate(const BodyPoses& poses, const ScenePair& pair) const;
   bool isPrepared(TrackedPair& pair);
   void prepareAhead(const Scene& scene);
-  void count(CycleCounts& counts) const;
+  void count(std::size_t pairs, CycleCounts& counts) const;
 
   SceneTrackerOptions options_;
   std::unique_ptr<CycleSolver> solver_;
   std::unique_ptr<NichePreparation> preparation_;  ///< nullptr: cycles prepare
+  std::unique_ptr<NearPairs> near_;
+  std::uint64_t near_revision_ = 0;  ///< that pairs_ has
   Pairs pairs_;
+  std::size_t listed_ = 0;  ///< the first of pairs_
   Pairs retired_;
   std::size_t body_count_ = 0;            ///< of the scene
   std::uint64_t largest_retired_id_ = 0;  ///< of removed pairs
   bool interrupted_ = false;              ///< the last cycle threw, or the running one has not ended
   std::vector<TrackedPair*> to_solve_;
-  std::vector<PairDemand> demand_;
+  BodyPoses poses_;  ///< of update() with one pose for each body
 };
 
 }  // namespace concave_distance

@@ -50,6 +50,9 @@ struct TrackedPair {
   /// @param index of the pair in the scene
   /// @param first_id niche ids are greater than this
   TrackedPair(const Scene& scene, std::size_t index, std::uint64_t first_id);
+  /// @param pair not listed perhaps, of these two bodies
+  TrackedPair(std::shared_ptr<const ScenePair> pair, std::shared_ptr<const SceneBody> a,
+              std::shared_ptr<const SceneBody> b, std::uint64_t first_id);
 
   std::shared_ptr<const ScenePair> origin;  ///< the scene pair that it was last set up from
   /// Bodies of the scene. One that is removed and added again is another, with settings of its own.
@@ -74,7 +77,8 @@ struct TrackedPair {
 
   bool solved() const { return state == PairState::Solved; }
 
-  /// Takes the input and decides, by the bodies' bounds, whether it can be within the cutoff.
+  /// Takes the input and decides, by the bodies' bounds, whether it can be within the cutoff. A pair that
+  /// comes back from beyond it within two seconds goes on warm.
   /// @param stop flag that ends solves early; nullptr: none
   /// @return true when solve() has to be called
   bool locate(const PairInput& next, const std::atomic<bool>* stop);
@@ -99,14 +103,16 @@ struct TrackedPair {
   /// The same after an exception: tracker and effects may be half changed and are made
   /// anew. Allocates nothing.
   void discard();
-  /// Other settings from the next cycle on.
+  /// Other settings from the next cycle on, of the same two bodies.
   /// @param settings_changed false: they are known to be the same
-  void adopt(std::shared_ptr<const ScenePair> pair, bool settings_changed);
+  void adopt(std::shared_ptr<const ScenePair> pair, std::shared_ptr<const SceneBody> a,
+             std::shared_ptr<const SceneBody> b, bool settings_changed);
 
   const PairTracker* tracker() const { return tracker_.get(); }
 
  private:
   void takeSettings();
+  void stayBeyond(double bound);
   void prepare(const std::atomic<bool>* stop);
   void updateEffects(WorkLimit limit);
   void endSolve();
@@ -114,6 +120,7 @@ struct TrackedPair {
 
   std::unique_ptr<PairTracker> tracker_;  ///< made when the pair is first watched
   PairInput solved_input_;
+  std::optional<double> beyond_since_;  ///< time at which it went beyond its cutoff with niches
   bool stale_parameters_ = false;  ///< the tracker has to be given the settings again
   bool must_solve_ = true;         ///< even when the input is the last one
   bool needs_niches_ = false;      ///< between prove() and finish(), as the next

@@ -31,6 +31,9 @@ std::vector<Eigen::Vector3d> vertexNormals(const SurfaceMesh& surface) {
   return normals;
 }
 
+// Pairs that are looked at for what covers their pressure.
+constexpr std::size_t kMostPairsTried = 10'000;
+
 bool pressesOnEachOther(const ScenePair& pair) {
   const std::optional<NormalForceSettings>& force = pair.settings.effects.normal_force;
   return force && force->distribution == ForceDistribution::Pressure;
@@ -40,7 +43,11 @@ std::vector<double> opacities(const Scene& scene) {
   std::vector<double> result;
   result.reserve(scene.bodies.size());
   for (const SceneBody& body : scene.bodies) result.push_back(body.colour[3]);
-  for (const ScenePair& pair : scene.pairs) {
+  const bool may_press_by_rule =
+      std::any_of(scene.rules.table.begin(), scene.rules.table.end(), [&](const PairRule& rule) {
+        return rule.is_watched && settingsOf(scene, rule).effects.normal_force;
+      });
+  for (const ScenePair& pair : may_press_by_rule ? allPairs(scene, kMostPairsTried) : scene.pairs) {
     if (!pressesOnEachOther(pair)) continue;
     double& opacity = result[seenThrough(scene, pair)];
     opacity = std::min(opacity, kSeenThroughOpacity);

@@ -48,8 +48,9 @@ std::vector<LocatedBody> locateBodies(const Scene& scene, const PublishedPairs& 
   };
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     if (!hasPoses(*pairs[k])) continue;
-    add(scene.pairs[k].body_a, pairs[k]->heading.reference_from_a);
-    add(scene.pairs[k].body_b, pairs[k]->heading.reference_from_a * pairs[k]->tracked->input.a_from_b);
+    const ScenePair& pair = *pairs[k]->tracked->origin;
+    add(pair.body_a, pairs[k]->heading.reference_from_a);
+    add(pair.body_b, pairs[k]->heading.reference_from_a * pairs[k]->tracked->input.a_from_b);
   }
   return located;
 }

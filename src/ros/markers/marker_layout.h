@@ -18,7 +18,7 @@ struct LocatedBody {
 };
 
 /// The bodies of the pairs that are due and have transforms, each once.
-/// @param pairs in the order of scene.pairs
+/// @param pairs of this scene
 std::vector<LocatedBody> locateBodies(const Scene& scene, const PublishedPairs& pairs);
 
 /// The box around the bodies, metres, without those that reach much farther from the middle than the median

@@ -13,6 +13,15 @@
 namespace concave_distance {
 namespace {
 
+// Of listed pairs or in rules.
+template <typename IsIt>
+bool isInSettings(const Scene& scene, const IsIt& is_it) {
+  return std::any_of(scene.pairs.begin(), scene.pairs.end(),
+                     [&](const ScenePair& pair) { return is_it(pair.settings); }) ||
+         std::any_of(scene.rules.table.begin(), scene.rules.table.end(),
+                     [&](const PairRule& rule) { return rule.is_watched && is_it(settingsOf(scene, rule)); });
+}
+
 const std::string kColumn(26, ' ');      // between two columns of a row
 constexpr double kRvizLineSpace = 0.01;  // m between the rows of one text in rviz
 constexpr double kSmallLineSpace = 0.5;  // of letters smaller than that: each row stands by itself
@@ -51,10 +60,10 @@ std::vector<TextRow> legendRows(const Scene& scene, const MarkerSelection& selec
   addRow({{"line: " + lengthText(style.near) + kColumn, distanceColor(style.near, style)},
           {lengthText(middle), distanceColor(middle, style)},
           {kColumn + lengthText(style.far) + " or more", distanceColor(style.far, style)}});
-  if (isAny(scene.pairs, [](const ScenePair& pair) { return pair.settings.warning_distance.has_value(); })) {
+  if (isInSettings(scene, [](const PairSettings& settings) { return settings.warning_distance.has_value(); })) {
     addRow({{"red: closer than the warning distance", warningColor()}});
   }
-  if (!isAny(scene.pairs, [](const ScenePair& pair) { return pair.settings.effects.any(); })) return rows;
+  if (!isInSettings(scene, [](const PairSettings& settings) { return settings.effects.any(); })) return rows;
   addRow({{"red arrow: normal force" + kColumn, normalForceColor()},
           {kColumn + "blue arrow: friction", frictionColor()}});
   const bool has_pressure = pressure_end > 0.0;

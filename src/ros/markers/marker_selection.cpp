@@ -54,14 +54,14 @@ MarkerSelection selectPairs(const std::vector<const PairNiches*>& pairs, const M
 std::set<std::size_t> warnedBodies(const Scene& scene, const std::vector<DrawnPair>& drawn, double largest) {
   std::set<std::size_t> bodies;
   for (const DrawnPair& pair : drawn) {
-    const std::optional<std::size_t> found = scene.pairs.find(pair.pair->nearest.pair);
-    if (pair.pair->nearest.warning == 0 || !found) continue;
-    const ScenePair& ends = scene.pairs[*found];
-    const bool a_is_link = scene.bodies[ends.body_a].is_robot_link;
-    const bool b_is_link = scene.bodies[ends.body_b].is_robot_link;
-    const std::size_t obstacle = a_is_link ? ends.body_b : ends.body_a;
+    const std::optional<std::size_t> body_a = scene.findBody(pair.pair->nearest.body_a);
+    const std::optional<std::size_t> body_b = scene.findBody(pair.pair->nearest.body_b);
+    if (pair.pair->nearest.warning == 0 || !body_a || !body_b) continue;
+    const bool a_is_link = scene.bodies[*body_a].is_robot_link;
+    const bool b_is_link = scene.bodies[*body_b].is_robot_link;
+    const std::size_t obstacle = a_is_link ? *body_b : *body_a;
     if (a_is_link != b_is_link && bodies.count(obstacle) != 0) continue;  // by a nearer link
-    bodies.insert({ends.body_a, ends.body_b});
+    bodies.insert({*body_a, *body_b});
   }
   for (auto body = bodies.begin(); body != bodies.end();) {
     body = scene.bodies[*body].mesh->diameter() > largest ? bodies.erase(body) : std::next(body);

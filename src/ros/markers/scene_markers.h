@@ -24,7 +24,7 @@ namespace concave_distance {
 class SceneMarkers {
  public:
   /// @param style as configured; 0 means automatic
-  /// @param pairs in the order of scene.pairs
+  /// @param pairs of this scene
   /// @param niches of the pairs that are due; none: everything is deleted
   /// @param header in the reference frame, stamped now
   /// @param lifetime seconds after which rviz drops a marker that is not renewed

@@ -1,14 +1,25 @@
 #include "published_pair.h"
 
+#include <utility>
+
 namespace concave_distance {
 
-PublishedPair::PublishedPair(const Scene& scene, const ScenePair& pair, const std::string& reference_frame)
-    : frames{reference_frame, scene.bodies[pair.body_a].frame, scene.bodies[pair.body_b].frame} {
+PublishedPair::PublishedPair(const Scene& scene, const ScenePair& pair, const std::string& reference_frame) {
   heading.pair = pair.name;
   heading.body_a = scene.bodies[pair.body_a].name;
   heading.body_b = scene.bodies[pair.body_b].name;
   heading.reference_frame = reference_frame;
   heading.accuracy = pair.settings.tracker.accuracy;
+}
+
+PublishedPair::PublishedPair(std::shared_ptr<const TrackedPair> tracked_pair,
+                             const std::string& reference_frame)
+    : tracked(std::move(tracked_pair)) {
+  heading.pair = tracked->origin->name;
+  heading.body_a = tracked->body_a->name;
+  heading.body_b = tracked->body_b->name;
+  heading.reference_frame = reference_frame;
+  heading.accuracy = tracked->settings.tracker.accuracy;
 }
 
 }  // namespace concave_distance

@@ -8,25 +8,23 @@
 
 #include "concave_distance/scene/tracked_pair.h"
 #include "conversions.h"
-#include "ros/tf/tf_poses.h"
 
 namespace concave_distance {
 
 /// A tracked pair with what its messages say besides: names, stamp, frames.
 struct PublishedPair {
   PublishedPair(const Scene& scene, const ScenePair& pair, const std::string& reference_frame);
+  PublishedPair(std::shared_ptr<const TrackedPair> tracked_pair, const std::string& reference_frame);
 
   std::shared_ptr<const TrackedPair> tracked;  ///< not null in DistanceCycle::pairs()
-  PairFrames frames;
-  PairAncestors ancestors;
   PairHeading heading;  ///< of the last answer
   PairStatus status;    ///< why there is no solution; OK when there is
-  ros::Time solved_stamp;
+  bool was_watched = false;  ///< before the last cycle
 
   const PairDemand& demand() const { return tracked->demand; }
 };
 
-/// In the order of scene.pairs.
+/// In the order of SceneTracker::pairs(): that of scene.pairs, then near pairs by rule.
 using PublishedPairs = std::vector<std::unique_ptr<PublishedPair>>;
 
 }  // namespace concave_distance

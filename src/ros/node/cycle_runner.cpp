@@ -119,8 +119,8 @@ bool CycleRunner::adoptScene() {
     cycle_.restart();
   }
   for (const std::string& name : pending.pairs) {
-    if (const auto place = served_->scene->pairs.find(name)) {
-      cycle_.restart(*place);
+    for (std::size_t place = 0; place < cycle_.pairs().size(); ++place) {
+      if (cycle_.pairs()[place]->heading.pair == name) cycle_.restart(place);
     }
   }
   return scene_changed;
@@ -132,18 +132,20 @@ CycleRecord CycleRunner::runCycle(ros::Time now, WorkLimit::Clock::time_point st
   const bool marker_cycle = cycles_until_markers_ == 0;
   cycles_until_markers_ = marker_cycle ? static_cast<std::uint64_t>(std::lround(rate_ / marker_rate)) - 1
                                        : cycles_until_markers_ - 1;
-  publishers_.readDemand(*served_, {publish_markers_, contact_markers_, marker_cycle, kMarkerShare / rate_},
-                         demand_);
+  publishers_.readDemand(*served_, {publish_markers_, contact_markers_, marker_cycle, kMarkerShare / rate_});
   CycleRecord record;
   // One more cycle after the last subscriber has gone ends what it needed. After that, pairs without
   // subscribers cost nothing.
-  const bool idle = publishers_.isIdle(demand_);
+  const bool idle = publishers_.isIdle();
   if (std::exchange(was_idle_, idle) && idle && !scene_changed) {
     return record;
   }
-  record.report = cycle_.run(demand_, now, endOfCycle(start, cycleBudget(cycle_budget_, rate_)));
+  const auto demand_of = [this](std::size_t place, const TrackedPair& pair) {
+    return publishers_.demandOf(*served_, place, pair);
+  };
+  record.report = cycle_.run(demand_of, now, endOfCycle(start, cycleBudget(cycle_budget_, rate_)));
   const PublishReport published = publishers_.publish(
-      *served_, cycle_.pairs(), std::max(kMarkerPeriods / marker_rate, kShortestMarkerLife), now);
+      *served_, cycle_.pairs(), cycle_.others(), std::max(kMarkerPeriods / marker_rate, kShortestMarkerLife), now);
   record.latency = published.latency;
   record.messages = published.messages;
   record.markers = published.markers;

@@ -59,7 +59,6 @@ class CycleRunner {
   // The cycle's thread alone uses these.
   DistanceCycle cycle_;
   std::shared_ptr<const ServedScene> served_;
-  std::vector<PairDemand> demand_;
   ros::Time last_now_;
   std::uint64_t cycles_until_markers_ = 0;
   bool was_idle_ = false;

@@ -1,38 +1,61 @@
 #include "distance_cycle.h"
 
 #include <algorithm>
-#include <functional>
 #include <optional>
+#include <unordered_map>
 #include <utility>
 
+#include "base/number_text.h"
 #include "ros/time_difference.h"
 
 namespace concave_distance {
+namespace {
+
+std::string describeAge(const TrackedPair& tracked, const std::string& reference_frame, double age,
+                        double stale_after) {
+  TextStream message;
+  message << "the newest transform between '" << tracked.body_a->frame << "', '" << tracked.body_b->frame
+          << "' and '" << reference_frame << "' is " << age << " s old; ~stale_after is " << stale_after << " s";
+  return message.str();
+}
+
+}  // namespace
 
 DistanceCycle::DistanceCycle(const TransformBuffer& transforms, CycleOptions options)
     : transforms_(transforms),
       options_(std::move(options)),
-      tracker_({options_.threads, options_.stop, options_.prepares_in_background}) {}
+      tracker_({options_.threads, options_.stop, options_.prepares_in_background}),
+      frames_(std::make_unique<FramePoses>()) {
+  frames_->setFrames(options_.reference_frame, {}, ros::Time());
+}
 
 void DistanceCycle::setScene(const Scene& scene, bool settings_changed) {
   const std::vector<std::optional<std::size_t>> places = tracker_.placesNow(scene);
   PublishedPairs next(places.size());
   for (std::size_t index = 0; index < places.size(); ++index) {
-    if (places[index]) continue;
+    if (places[index] && *places[index] < pairs_.size()) continue;
     next[index] = std::make_unique<PublishedPair>(scene, scene.pairs[index], options_.reference_frame);
   }
+  std::vector<std::string> body_frames;
+  for (const SceneBody& body : scene.bodies) body_frames.push_back(body.frame);
+  auto frames = std::make_unique<FramePoses>();
+  frames->setFrames(options_.reference_frame, body_frames, frames_->epoch());
   retired_.reserve(retired_.size() + pairs_.size());
+  spare_.reserve(spare_.size() + pairs_.size());
   tracker_.setScene(scene, settings_changed);
 
   // Nothing below allocates: from here on it is the new scene that is followed.
+  frames_ = std::move(frames);
   for (std::size_t index = 0; index < places.size(); ++index) {
-    if (places[index]) next[index] = std::move(pairs_[*places[index]]);
+    if (!next[index]) next[index] = std::move(pairs_[*places[index]]);
     next[index]->tracked = tracker_.pairs()[index];
   }
   const SceneTracker::Pairs retired = tracker_.takeRetired();
   for (auto& pair : pairs_) {
-    const auto is_it = [&](const auto& tracked) { return pair && tracked == pair->tracked; };
-    if (std::any_of(retired.begin(), retired.end(), is_it)) retired_.push_back(std::move(pair));
+    if (!pair) continue;
+    const auto is_it = [&](const auto& tracked) { return tracked == pair->tracked; };
+    const bool has_alert = std::any_of(retired.begin(), retired.end(), is_it);
+    (has_alert ? retired_ : spare_).push_back(std::move(pair));
   }
   pairs_ = std::move(next);
 }
@@ -48,50 +71,95 @@ PublishedPairs DistanceCycle::takeRetired() {
 
 CycleCounts DistanceCycle::run(const std::vector<PairDemand>& demand, ros::Time now,
                                WorkLimit::Clock::time_point end) {
-  was_watched_.clear();
-  for (const auto& pair : pairs_) was_watched_.push_back(pair->demand().watched);
-  const std::shared_ptr<const tf2::BufferCore> buffer = transforms_.current();
-  const auto locate_pair = [&](std::size_t index) { return locate(*pairs_[index], *buffer, now); };
-  const CycleCounts counts = tracker_.update(demand, std::cref(locate_pair), end);
-  for (std::size_t index = 0; index < pairs_.size(); ++index) describe(*pairs_[index], was_watched_[index]);
+  return run(
+      [&](std::size_t place, const TrackedPair&) {
+        return place < demand.size() ? demand[place] : PairDemand();
+      },
+      now, end);
+}
+
+CycleCounts DistanceCycle::run(const SceneTracker::DemandOf& demand_of, ros::Time now,
+                               WorkLimit::Clock::time_point end) {
+  for (const auto& pair : pairs_) pair->was_watched = pair->demand().watched;
+  frames_->update(*transforms_.current(), now, options_.stale_after);
+  const CycleCounts counts = tracker_.update(frames_->poses(), demand_of, end);
+  followPairs();
+  for (const auto& pair : pairs_) describe(*pair, now);
   return counts;
 }
 
-// Fills stamp, poses and the status of the transforms.
-PairInput DistanceCycle::locate(PublishedPair& pair, const tf2::BufferCore& buffer, ros::Time now) const {
-  const PairTransforms transforms =
-      lookUpPair(buffer, pair.frames, now, options_.stale_after, pair.ancestors);
-  pair.heading.stamp = transforms.status == TransformStatus::Missing ? now : transforms.stamp;
-  pair.status = toStatus(transforms.status, transforms.message);
-  PairInput input;
-  input.located = transforms.status == TransformStatus::Ok;
-  if (!input.located) return input;
-  pair.heading.reference_from_a = transforms.reference_from_a;
-  input.a_from_b = transforms.a_from_b;
-  input.fixed = transforms.fixed;
-  input.time = transforms.stamp.toSec();
-  // Stamps differ by less than a double of seconds since 1970 resolves.
-  input.step = secondsBetween(pair.solved_stamp, transforms.stamp);
-  return input;
+// What is published of a pair goes where the pair is now.
+void DistanceCycle::followPairs() {
+  const SceneTracker::Pairs& tracked = tracker_.pairs();
+  const auto is_there = [&](std::size_t i) {
+    return i < pairs_.size() && pairs_[i] && pairs_[i]->tracked == tracked[i];
+  };
+  std::size_t first = 0;
+  while (first < tracked.size() && is_there(first)) ++first;
+  if (first == tracked.size() && pairs_.size() == first) {
+    spare_.clear();
+    return;
+  }
+  PublishedPairs next(tracked.size());
+  std::unordered_map<const TrackedPair*, std::unique_ptr<PublishedPair>*> known;
+  for (PublishedPairs* list : {&pairs_, &spare_}) {
+    for (auto& pair : *list) {
+      if (pair) known.emplace(pair->tracked.get(), &pair);
+    }
+  }
+  for (std::size_t i = first; i < tracked.size(); ++i) {
+    if (known.count(tracked[i].get()) != 0) continue;
+    next[i] = std::make_unique<PublishedPair>(tracked[i], options_.reference_frame);
+  }
+  // Nothing below allocates.
+  for (std::size_t i = 0; i < tracked.size(); ++i) {
+    if (!next[i]) next[i] = std::move(*known.find(tracked[i].get())->second);
+  }
+  pairs_ = std::move(next);
+  spare_.clear();
 }
 
 // Fills what the messages say about the cycle.
-void DistanceCycle::describe(PublishedPair& pair, bool was_watched) {
+void DistanceCycle::describe(PublishedPair& pair, ros::Time now) const {
   const TrackedPair& tracked = *pair.tracked;
   pair.heading.accuracy = tracked.settings.tracker.accuracy;
   pair.heading.with_niches = tracked.demand.niches;
   pair.heading.warning = tracked.warning.state() == WarningState::Warning;
-  if (was_watched && !tracked.demand.watched) {
+  if (pair.was_watched && !tracked.demand.watched) {
     pair.status.code = PairStatus::DISABLED;
     pair.status.message = tracked.origin->enabled ? "nobody subscribes" : "the pair was switched off";
   }
   if (!tracked.demand.due) return;
+  const std::size_t body_a = tracked.origin->body_a;
+  const std::size_t body_b = tracked.origin->body_b;
+  const FramePlace& place_a = frames_->place(body_a);
+  const FramePlace& place_b = frames_->place(body_b);
+  const ros::Time stamp = frames_->commonStamp(body_a, body_b);
+  if (place_a.status == TransformStatus::Missing || place_b.status == TransformStatus::Missing) {
+    pair.heading.stamp = now;
+    pair.status = toStatus(TransformStatus::Missing,
+                           (place_a.status == TransformStatus::Missing ? place_a : place_b).message);
+    return;
+  }
+  pair.heading.stamp = stamp.isZero() ? now : stamp;
+  if (!tracked.input.located && place_a.status == TransformStatus::Ok && place_b.status == TransformStatus::Ok) {
+    pair.status = toStatus(TransformStatus::Missing, "the transforms of '" + tracked.body_a->frame + "' and '" +
+                                                         tracked.body_b->frame + "' have no time in common yet");
+    return;
+  }
+  if (!tracked.input.located) {
+    pair.status = toStatus(
+        TransformStatus::Stale,
+        describeAge(tracked, options_.reference_frame, secondsBetween(stamp, now), options_.stale_after));
+    return;
+  }
+  pair.status = toStatus(TransformStatus::Ok, "");
+  pair.heading.reference_from_a = frames_->referenceFrom(body_a, body_b);
   if (tracked.state == PairState::BeyondCutoff) pair.status.code = PairStatus::BEYOND_CUTOFF;
   if (tracked.state == PairState::Stopped) {
     pair.status.code = PairStatus::DISABLED;
     pair.status.message = "the node is shutting down";
   }
-  if (tracked.solved() && !tracked.repeated) pair.solved_stamp = pair.heading.stamp;
 }
 
 }  // namespace concave_distance

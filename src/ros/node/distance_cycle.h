@@ -4,12 +4,14 @@
 
 #include <atomic>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "concave_distance/scene/scene.h"
 #include "concave_distance/scene/scene_tracker.h"
 #include "ros/messages/published_pair.h"
+#include "ros/tf/frame_poses.h"
 
 namespace concave_distance {
 
@@ -21,7 +23,7 @@ struct CycleOptions {
   bool prepares_in_background = false;      ///< as SceneTrackerOptions
 };
 
-/// Tracks the pairs of a scene at the poses that tf2 knows. Knows the transforms but no topic. One thread at
+/// Tracks a scene at the poses that tf2 knows. Knows the transforms but no topic. One thread at
 /// a time.
 class DistanceCycle {
  public:
@@ -30,27 +32,33 @@ class DistanceCycle {
   /// As SceneTracker::setScene.
   void setScene(const Scene& scene, bool settings_changed = true);
   /// As SceneTracker::update, at the newest transforms.
+  CycleCounts run(const SceneTracker::DemandOf& demand_of, ros::Time now,
+                  WorkLimit::Clock::time_point end = kNoCycleEnd);
+  /// @param demand of the first pairs; nothing is wanted of the others
   CycleCounts run(const std::vector<PairDemand>& demand, ros::Time now,
                   WorkLimit::Clock::time_point end = kNoCycleEnd);
 
-  /// Every pair, or the one at this place in scene.pairs, starts cold in its next cycle.
+  /// Every pair, or the one at this place in pairs(), starts cold in its next cycle.
   void restart() { tracker_.restart(); }
   void restart(std::size_t pair) { tracker_.restart(pair); }
 
   const PublishedPairs& pairs() const { return pairs_; }
+  /// Counts the pairs by rule that pairs() does not have.
+  const OtherPairs& others() const { return tracker_.others(); }
   /// Pairs that left the scene with an alert raised, which setScene took back; reported once.
   PublishedPairs takeRetired();
 
  private:
-  PairInput locate(PublishedPair& pair, const tf2::BufferCore& buffer, ros::Time now) const;
-  static void describe(PublishedPair& pair, bool was_watched);
+  void followPairs();
+  void describe(PublishedPair& pair, ros::Time now) const;
 
   const TransformBuffer& transforms_;
   CycleOptions options_;
   SceneTracker tracker_;
+  std::unique_ptr<FramePoses> frames_;
   PublishedPairs pairs_;
+  PublishedPairs spare_;  ///< of an earlier order, for followPairs()
   PublishedPairs retired_;
-  std::vector<bool> was_watched_;
 };
 
 }  // namespace concave_distance

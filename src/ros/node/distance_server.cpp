@@ -163,6 +163,9 @@ void DistanceServer::followLoading() {
     for (std::size_t i = 0; i < outcome->scene->pairs.size(); ++i) {
       applyChanges(config_of_loading_, config_, outcome->scene->pairs.edit(i).settings);
     }
+    for (PairSettings& settings : outcome->scene->rules.settings) {
+      applyChanges(config_of_loading_, config_, settings);
+    }
     applyChanges(config_of_loading_, config_, outcome->scene->defaults.pairs);
   }
   keeper_.replace(std::move(*outcome->scene));
@@ -224,7 +227,8 @@ void DistanceServer::doHousekeeping() {
 
 void DistanceServer::reportLateness() {
   const std::shared_ptr<const Scene> scene = keeper_.served()->scene;
-  if (scene->pairs.empty()) {
+  const std::size_t pairs = scene->pairs.size() + countRuledPairs(*scene);
+  if (pairs == 0) {
     lateness_.restart();
     return;
   }
@@ -239,7 +243,7 @@ void DistanceServer::reportLateness() {
     return;
   }
   if (news->is_warning) {
-    ROS_WARN_STREAM(news->text << ". " << scene->pairs.size()
+    ROS_WARN_STREAM(news->text << ". " << pairs
                                << " pairs are in the scene; what helps: " << kRemedies);
   } else {
     ROS_INFO_STREAM(news->text);

@@ -235,7 +235,9 @@ ParameterTable<L> ofSizes() {
           .from(1.0)
           .to(1e6),
       count<L>(
-          "largest_pair_count", [](auto& l) -> auto& { return l.largest_pair_count; }, "pairs of the scene")
+          "largest_pair_count", [](auto& l) -> auto& { return l.largest_pair_count; },
+          "named pairs of the scene, and pairs by rule that are near at one time: what is more is cut, with a "
+          "count (`pairs_cut`)")
           .from(1.0)
           .to(1e7),
       count<L>(

@@ -126,14 +126,16 @@ PairContactState findContacts(const SceneBody& body_a, const SceneBody& body_b, 
 
 QueryAnswer answer(const DistanceQuery& query, const Scene& scene, const QueryContext& context, ros::Time now,
                    PairHeading& heading) {
-  const SceneBody& body_a = scene.bodies[requireBody(scene, query.body_a)];
-  const SceneBody& body_b = scene.bodies[requireBody(scene, query.body_b)];
+  const std::size_t index_a = requireBody(scene, query.body_a);
+  const std::size_t index_b = requireBody(scene, query.body_b);
+  const SceneBody& body_a = scene.bodies[index_a];
+  const SceneBody& body_b = scene.bodies[index_b];
   if (&body_a == &body_b) {
     throw Error("body_b", "both bodies are '" + query.body_a + "'", "name two different bodies");
   }
-  const auto found = scene.findPair(query.body_a, query.body_b);
-  const PairSettings& settings = found ? scene.pairs[*found].settings : scene.defaults.pairs;
-  heading.pair = found ? scene.pairs[*found].name : query.body_a + "/" + query.body_b;
+  const std::optional<ScenePair> found = pairOf(scene, index_a, index_b);
+  const PairSettings& settings = found ? found->settings : scene.defaults.pairs;
+  heading.pair = found ? found->name : query.body_a + "/" + query.body_b;
   TrackerParameters parameters = withMargins(queryParameters(query, settings.tracker), body_a, body_b);
   if (query.with_contacts != 0 && !provesDistance(parameters.accuracy)) {
     throw Error("with_contacts",

@@ -53,6 +53,9 @@ PairSettings pairSettings(const AddBody::Request& request, PairSettings settings
 
 constexpr double kRemarkPeriod = 1.0;  // s between two remarks in the log; every response has its own
 
+// Pairs besides the named ones that list_bodies has.
+constexpr std::size_t kMostPairsListed = 1000;
+
 // Bodies named in a remark.
 constexpr std::size_t kMostNamed = 8;
 
@@ -130,7 +133,7 @@ bool SceneServices::listBodies(ListBodies::Request& /*request*/, ListBodies::Res
   for (const SceneBody& body : scene->bodies) {
     response.bodies.push_back(toBodyInfo(body));
   }
-  for (const ScenePair& pair : scene->pairs) {
+  for (const ScenePair& pair : allPairs(*scene, scene->pairs.size() + kMostPairsListed)) {
     response.pairs.push_back(toPairInfo(*scene, pair));
   }
   for (const SceneProblem& problem : scene->problems) {
@@ -141,6 +144,11 @@ bool SceneServices::listBodies(ListBodies::Request& /*request*/, ListBodies::Res
   }
   response.notes = scene->warnings;
   response.notes.insert(response.notes.end(), scene->notes.begin(), scene->notes.end());
+  if (response.pairs.size() >= scene->pairs.size() + kMostPairsListed) {
+    response.notes.push_back("pairs has those that are named and " + std::to_string(kMostPairsListed) +
+                             " others; " + std::to_string(countRuledPairs(*scene)) +
+                             " are enabled besides the named ones");
+  }
   for (const SceneBody& body : scene->bodies) {
     const SearchPreparation prepared = searchPreparationOf(body.mesh->asSolved());
     if (prepared.is_complete && !prepared.has_matrices) {
@@ -233,7 +241,7 @@ bool SceneServices::resetTracking(ResetTracking::Request& request, ResetTracking
     const std::shared_ptr<const Scene> scene = keeper_.served()->scene;
     if (request.pair.empty()) {
       restarts_.requestAll();
-      response.count = static_cast<std::uint32_t>(scene->pairs.size());
+      response.count = static_cast<std::uint32_t>(scene->pairs.size() + countRuledPairs(*scene));
       return;
     }
     requirePair(*scene, request.pair);

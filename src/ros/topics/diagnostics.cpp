@@ -119,7 +119,7 @@ void describeScene(const Scene& scene, const std::string& waiting_for,
     status.summary(DiagnosticStatus::OK, "loaded");
   }
   status.add("bodies", scene.bodies.size());
-  status.add("pairs", scene.pairs.size());
+  status.add("pairs", scene.pairs.size() + countRuledPairs(scene));
   for (std::size_t index = 0; index < std::min(scene.problems.size(), kListed); ++index) {
     status.add("problem " + std::to_string(index + 1),
                scene.problems[index].where + ": " + scene.problems[index].message);

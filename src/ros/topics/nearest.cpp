@@ -16,9 +16,19 @@ struct Survey {
   double number = kInfinity;               ///< Nearest::number, so far
   double lower_bound = kInfinity;
   bool all_proven = true;
-  std::uint32_t pairs = 0;
-  std::uint32_t missing_count = 0;
-  std::uint32_t beyond_cutoff = 0;
+  std::uint64_t pairs = 0;
+  std::uint64_t missing_count = 0;
+  std::uint64_t beyond_cutoff = 0;
+  std::uint64_t cut = 0;
+
+  void add(const OtherPairs& others) {
+    pairs += others.beyond + others.missing + others.cut;
+    missing_count += others.missing;
+    beyond_cutoff += others.beyond;
+    cut = others.cut;
+    number = std::min(number, others.lower_bound);
+    lower_bound = std::min(lower_bound, others.lower_bound);
+  }
 
   void add(const PublishedPair& pair) {
     ++pairs;
@@ -50,13 +60,17 @@ struct Survey {
   }
 };
 
-std::string ofPairs(std::uint32_t count, std::uint32_t all) {
+std::string ofPairs(std::uint64_t count, std::uint64_t all) {
   return std::to_string(count) + " of " + std::to_string(all) + " pairs ";
 }
 
 std::string explain(const Survey& survey) {
   if (survey.pairs == 0) {
     return "no pair is watched: the scene has none, or all are switched off";
+  }
+  if (survey.cut > 0) {
+    return ofPairs(survey.cut, survey.pairs) +
+           "are near and not solved (raise ~limits/largest_pair_count, or shorten ~cutoff)";
   }
   if (survey.missing != nullptr) {
     return ofPairs(survey.missing_count, survey.pairs) + "have no distance and may be nearer; the first is " +
@@ -71,8 +85,10 @@ std::string explain(const Survey& survey) {
 
 }  // namespace
 
-Nearest nearestOf(const PublishedPairs& pairs, const std::string& reference_frame, ros::Time now) {
+Nearest nearestOf(const PublishedPairs& pairs, const OtherPairs& others, const std::string& reference_frame,
+                  ros::Time now) {
   Survey survey;
+  survey.add(others);
   for (const auto& pair : pairs) {
     if (pair->demand().due) {
       survey.add(*pair);
@@ -82,9 +98,10 @@ Nearest nearestOf(const PublishedPairs& pairs, const std::string& reference_fram
   message.header.frame_id = reference_frame;
   message.header.stamp = survey.nearest == nullptr ? now : survey.nearest->heading.stamp;
   message.distance = message.lower_bound = message.number = kNotComputed;
-  message.pairs = survey.pairs;
-  message.pairs_missing = survey.missing_count;
-  message.pairs_beyond_cutoff = survey.beyond_cutoff;
+  message.pairs = static_cast<std::uint32_t>(survey.pairs);
+  message.pairs_missing = static_cast<std::uint32_t>(survey.missing_count);
+  message.pairs_beyond_cutoff = static_cast<std::uint32_t>(survey.beyond_cutoff);
+  message.pairs_cut = static_cast<std::uint32_t>(survey.cut);
   if (survey.nearest != nullptr) {
     message.pair = survey.nearest->heading.pair;
     message.body_a = survey.nearest->heading.body_a;

@@ -5,6 +5,7 @@
 
 #include <string>
 
+#include "concave_distance/scene/body_poses.h"
 #include "ros/messages/published_pair.h"
 
 namespace concave_distance {
@@ -13,6 +14,8 @@ namespace concave_distance {
 /// `number` is the smallest of: the distance of a pair that is exact or proves nothing; the lower bound of a
 /// pair whose proof was ended early; the bound of a pair beyond its cutoff. It is set when every pair has one
 /// of these, and it is 0 whenever bodies penetrate.
-Nearest nearestOf(const PublishedPairs& pairs, const std::string& reference_frame, ros::Time now);
+/// @param others pairs by rule that `pairs` does not have
+Nearest nearestOf(const PublishedPairs& pairs, const OtherPairs& others, const std::string& reference_frame,
+                  ros::Time now);
 
 }  // namespace concave_distance

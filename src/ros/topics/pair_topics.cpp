@@ -11,6 +11,7 @@
 
 #include "base/ascii.h"
 #include "scene/name_pattern.h"
+#include "scene/rule_edits.h"
 
 namespace concave_distance {
 namespace {
@@ -31,6 +32,14 @@ PairTopicKeeper::PairTopicKeeper(const ros::NodeHandle& node,
                                  std::optional<std::vector<std::string>> patterns)
     : node_(node), patterns_(std::move(patterns)) {}
 
+void PairTopicKeeper::listPairs(Scene& scene) const {
+  if (patterns_) {
+    detail::listMatchingPairs(scene, *patterns_);
+  } else if (scene.pairs.size() + countRuledPairs(scene) <= kMostUnnamed) {
+    scene.pairs = allPairs(scene);
+  }
+}
+
 PairTopicList PairTopicKeeper::topicsOf(const Scene& scene, const Scene* before,
                                         const PairTopicList& topics_before) {
   PairTopicList topics(scene.pairs.size());
@@ -47,20 +56,21 @@ PairTopicList PairTopicKeeper::topicsOf(const Scene& scene, const Scene* before,
       moved.emplace(before->pairs[index].name, topics_before[index]);
     }
   }
-  bool is_left_out = false;
+  const std::size_t pair_count = scene.pairs.size() + countRuledPairs(scene);
+  bool is_left_out = pair_count > scene.pairs.size();
   for (std::size_t index = 0; index < topics.size(); ++index) {
     if (is_unchanged(index)) continue;
     const std::string& pair = scene.pairs[index].name;
     if (const auto found = moved.find(pair); found != moved.end()) {
       topics[index] = found->second;
-    } else if (isWanted(pair, scene.pairs.size())) {
+    } else if (isWanted(pair, pair_count)) {
       topics[index] = advertise(pair);
     } else {
       is_left_out = true;
     }
   }
   if (is_left_out && !patterns_) {
-    reportUnnamed(scene.pairs.size());
+    reportUnnamed(pair_count);
   }
   return topics;
 }

@@ -20,7 +20,7 @@ struct PairTopics {
   WatchedTopic contacts;
 };
 
-/// One entry per pair of a scene, in the scene's order; nullptr: the pair has no topics.
+/// One entry per listed pair of a scene, in the scene's order; nullptr: the pair has no topics.
 using PairTopicList = std::vector<std::shared_ptr<const PairTopics>>;
 
 /// Decides which pairs have their own topics, and advertises these. Advertising three topics takes the master
@@ -33,6 +33,8 @@ class PairTopicKeeper {
   /// @param patterns of pairs' names, with * and ?; nothing: every pair of a small scene
   PairTopicKeeper(const ros::NodeHandle& node, std::optional<std::vector<std::string>> patterns);
 
+  /// Lists the pairs of a scene that have topics: a pair by rule has none.
+  void listPairs(Scene& scene) const;
   /// @param before the previous scene with its topics, which are kept for pairs that stay; nullptr: none
   PairTopicList topicsOf(const Scene& scene, const Scene* before, const PairTopicList& topics_before);
 

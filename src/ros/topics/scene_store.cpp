@@ -42,6 +42,7 @@ void SceneStore::changeSettings(const std::function<void(PairSettings&)>& change
   for (std::size_t i = 0; i < edited.pairs.size(); ++i) {
     change(edited.pairs.edit(i).settings);
   }
+  for (PairSettings& settings : edited.rules.settings) change(settings);
   change(edited.defaults.pairs);
   serve(std::move(edited), true);
 }
@@ -60,7 +61,7 @@ void SceneStore::serve(Scene scene, bool settings_changed) {
   const std::shared_ptr<const ServedScene> before = served();
   const std::uint64_t revision = (before ? before->settings_revision : 0) + (settings_changed ? 1 : 0);
   std::shared_ptr<const ServedScene> next =
-      publishers_.serve(std::make_shared<const Scene>(std::move(scene)), before.get(), style_, revision);
+      publishers_.serve(std::move(scene), before.get(), style_, revision);
   const std::lock_guard<std::mutex> lock(mutex_);
   served_ = std::move(next);
 }

@@ -63,6 +63,22 @@ Alert toAlert(const PublishedPair& pair, const PairDistance& nearest) {
   return alert;
 }
 
+// Fills what is said of the pairs that are not listed.
+void countOthers(const PublishedPairs& pairs, const OtherPairs& others, Distances& message) {
+  std::uint64_t beyond = others.beyond;
+  double bound = others.lower_bound;
+  for (const auto& pair : pairs) {
+    if (!pair->demand().due || !pair->tracked->box_bound) continue;
+    ++beyond;
+    bound = std::min(bound, *pair->tracked->box_bound);
+  }
+  message.pairs_beyond_cutoff = static_cast<std::uint32_t>(beyond);
+  message.pairs_missing = static_cast<std::uint32_t>(others.missing);
+  message.pairs_cut = static_cast<std::uint32_t>(others.cut);
+  message.has_others_lower_bound = static_cast<std::uint8_t>(beyond + others.cut > 0);
+  message.others_lower_bound = message.has_others_lower_bound != 0 ? bound : kNotComputed;
+}
+
 bool isSolved(const PairNiches& message) {
   return message.nearest.has_distance != 0;
 }
@@ -103,89 +119,100 @@ TopicPublishers::TopicPublishers(const ros::NodeHandle& node, std::string refere
 
 TopicPublishers::~TopicPublishers() = default;
 
-std::shared_ptr<const ServedScene> TopicPublishers::serve(const std::shared_ptr<const Scene>& scene,
-                                                          const ServedScene* before, const MarkerStyle& style,
+std::shared_ptr<const ServedScene> TopicPublishers::serve(Scene scene, const ServedScene* before,
+                                                          const MarkerStyle& style,
                                                           std::uint64_t settings_revision) {
+  pair_topics_.listPairs(scene);
   auto served = std::make_shared<ServedScene>();
   served->settings_revision = settings_revision;
-  served->scene = scene;
+  served->scene = std::make_shared<const Scene>(std::move(scene));
   served->marker_style = style;
   static const PairTopicList kNoTopics;
-  served->topics = pair_topics_.topicsOf(*scene, before == nullptr ? nullptr : before->scene.get(),
+  served->topics = pair_topics_.topicsOf(*served->scene, before == nullptr ? nullptr : before->scene.get(),
                                          before == nullptr ? kNoTopics : before->topics);
   return served;
 }
 
-void TopicPublishers::readDemand(const ServedScene& served, const MarkerOptions& markers,
-                                 std::vector<PairDemand>& demand) {
+void TopicPublishers::readDemand(const ServedScene& served, const MarkerOptions& markers) {
   nearest_wanted_ = nearest_.isWatched() || nearest_distance_.isWatched();
   distances_wanted_ = distances_.isWatched();
   niches_wanted_ = niches_.isWatched();
   contacts_wanted_ = contacts_.isWatched();
-  const bool alerts_wanted = alerts_.isWatched();
+  alerts_wanted_ = alerts_.isWatched();
+  own_wanted_ = std::any_of(served.topics.begin(), served.topics.end(), [](const auto& own) {
+    return own && (own->distance.isWatched() || own->niches.isWatched() || own->contacts.isWatched());
+  });
   const bool markers_watched = markers_.isWatched();
   if (!markers_watched) {
     drawing_->forget();
   }
   markers_wanted_ = markers.publish && markers_watched;
   contact_markers_wanted_ = markers_wanted_ && markers.contacts;
+  are_markers_due_ = markers.due;
   // When markers are switched off, what is shown has to be deleted once more.
   markers_due_ = markers.due && (markers_wanted_ || !drawing_->empty());
-  demand.assign(served.topics.size(), PairDemand());
-  static const PairTopics kNoTopics;
   drawing_->demand().begin(markers.niche_seconds);
-  for (std::size_t index = 0; index < demand.size(); ++index) {
-    const PairTopics& own = served.topics[index] ? *served.topics[index] : kNoTopics;
-    const bool own_niches = own.niches.isWatched();
-    const bool alert = alerts_wanted && served.scene->pairs[index].settings.warning_distance;
-    const bool contacts =
-        (contacts_wanted_ || own.contacts.isWatched()) && served.scene->pairs[index].settings.effects.any();
-    PairDemand& pair = demand[index];
-    pair.due = nearest_wanted_ || distances_wanted_ || niches_wanted_ || alert || own_niches || contacts ||
-               own.distance.isWatched() || (markers_wanted_ && markers.due);
-    pair.watched = pair.due || markers_wanted_;
-    pair.effects = contacts || (contact_markers_wanted_ && served.scene->pairs[index].settings.effects.any());
-    // A contact's id is its niche's.
-    pair.niches = niches_wanted_ || own_niches || pair.effects ||
-                  (markers_wanted_ && drawing_->demand().wantsNiches(served.scene->pairs[index].name));
-  }
 }
 
-bool TopicPublishers::isIdle(const std::vector<PairDemand>& demand) const {
-  return !nearest_wanted_ && !distances_wanted_ && !niches_wanted_ && !contacts_wanted_ && !markers_due_ &&
-         std::none_of(demand.begin(), demand.end(), [](const PairDemand& pair) { return pair.watched; });
+PairDemand TopicPublishers::demandOf(const ServedScene& served, std::size_t place,
+                                     const TrackedPair& tracked) const {
+  static const PairTopics kNoTopics;
+  const PairSettings& settings = tracked.origin->settings;
+  const bool has_own = own_wanted_ && place < served.topics.size() && served.topics[place];
+  const PairTopics& own = has_own ? *served.topics[place] : kNoTopics;
+  const bool own_niches = own.niches.isWatched();
+  const bool alert = alerts_wanted_ && settings.warning_distance;
+  const bool contacts = (contacts_wanted_ || own.contacts.isWatched()) && settings.effects.any();
+  PairDemand pair;
+  pair.due = nearest_wanted_ || distances_wanted_ || niches_wanted_ || alert || own_niches || contacts ||
+             own.distance.isWatched() || (markers_wanted_ && are_markers_due_);
+  pair.watched = pair.due || markers_wanted_;
+  pair.effects = contacts || (contact_markers_wanted_ && settings.effects.any());
+  // A contact's id is its niche's.
+  pair.niches = niches_wanted_ || own_niches || pair.effects ||
+                (markers_wanted_ && drawing_->demand().wantsNiches(tracked.origin->name));
+  return pair;
+}
+
+bool TopicPublishers::isIdle() const {
+  return !nearest_wanted_ && !distances_wanted_ && !niches_wanted_ && !contacts_wanted_ && !alerts_wanted_ &&
+         !own_wanted_ && !markers_wanted_ && !markers_due_;
 }
 
 PublishReport TopicPublishers::publish(const ServedScene& served, const PublishedPairs& pairs,
-                                       double marker_lifetime, ros::Time now) {
+                                       const OtherPairs& others, double marker_lifetime, ros::Time now) {
+  PublishReport report;
   messages_.clear();
   drawing_->demand().take(pairs);
   const bool in_lists = distances_wanted_ || niches_wanted_ || markers_due_;
   for (std::size_t index = 0; index < pairs.size(); ++index) {
     const PublishedPair& pair = *pairs[index];
-    const PairTopics* own = served.topics[index].get();
+    const PairTopics* own = index < served.topics.size() ? served.topics[index].get() : nullptr;
     const bool own_distance = own != nullptr && own->distance.isWatched();
     const bool own_niches = own != nullptr && own->niches.isWatched();
-    if (!pair.demand().due || !(in_lists || own_distance || own_niches)) {
+    const bool is_listed = in_lists && !pair.tracked->box_bound;
+    if (!pair.demand().due || !(is_listed || own_distance || own_niches)) {
       continue;
     }
-    messages_.push_back(toMessage(pair));
+    ++report.messages;
+    PairNiches message = toMessage(pair);
     if (own_distance) {
-      own->distance.publish(boost::make_shared<PairDistance>(messages_.back().nearest));
+      own->distance.publish(boost::make_shared<PairDistance>(message.nearest));
     }
     if (own_niches) {
-      own->niches.publish(boost::make_shared<PairNiches>(messages_.back()));
+      own->niches.publish(boost::make_shared<PairNiches>(message));
+    }
+    if (is_listed) {
+      messages_.push_back(std::move(message));
     }
   }
-  PublishReport report;
-  report.messages = static_cast<std::uint32_t>(messages_.size());
-  publishNearest(pairs, now);
+  publishNearest(pairs, others, now);
   publishAlerts(pairs);
   publishContacts(served, pairs, now);
   if (markers_due_) {
     report.markers = static_cast<std::uint32_t>(publishMarkers(served, pairs, marker_lifetime, now));
   }
-  publishLists(pairs, now);
+  publishLists(pairs, others, now);
   const ros::Time end = ros::Time::now();
   for (const auto& pair : pairs) {
     if (pair->demand().due && pair->tracked->solved() && !pair->tracked->repeated &&
@@ -232,7 +259,7 @@ void TopicPublishers::publishContacts(const ServedScene& served, const Published
       continue;
     }
     contact_messages_.push_back(toContactMessage(*pairs[index]));
-    const PairTopics* own = served.topics[index].get();
+    const PairTopics* own = index < served.topics.size() ? served.topics[index].get() : nullptr;
     if (own != nullptr && own->contacts.isWatched()) {
       own->contacts.publish(boost::make_shared<PairContactState>(contact_messages_.back()));
     }
@@ -245,11 +272,11 @@ void TopicPublishers::publishContacts(const ServedScene& served, const Published
   }
 }
 
-void TopicPublishers::publishNearest(const PublishedPairs& pairs, ros::Time now) {
+void TopicPublishers::publishNearest(const PublishedPairs& pairs, const OtherPairs& others, ros::Time now) {
   if (!nearest_wanted_) {
     return;
   }
-  const auto message = boost::make_shared<Nearest>(nearestOf(pairs, reference_frame_, now));
+  const auto message = boost::make_shared<Nearest>(nearestOf(pairs, others, reference_frame_, now));
   if (message->has_number != 0) {
     const auto number = boost::make_shared<std_msgs::Float64>();
     number->data = message->number;
@@ -258,9 +285,10 @@ void TopicPublishers::publishNearest(const PublishedPairs& pairs, ros::Time now)
   nearest_.publish(message);
 }
 
-void TopicPublishers::publishLists(const PublishedPairs& pairs, ros::Time now) {
+void TopicPublishers::publishLists(const PublishedPairs& pairs, const OtherPairs& others, ros::Time now) {
   if (distances_wanted_) {
     auto message = boost::make_shared<Distances>();
+    countOthers(pairs, others, *message);
     message->header = commonHeader(messages_, now, reference_frame_);
     message->pairs.reserve(messages_.size());
     for (const PairNiches& pair : messages_) {

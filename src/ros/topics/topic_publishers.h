@@ -25,7 +25,7 @@ class SceneMarkers;
 /// A scene together with the topics of its pairs: what one cycle works on.
 struct ServedScene {
   std::shared_ptr<const Scene> scene;
-  PairTopicList topics;                 ///< one per scene->pairs
+  PairTopicList topics;                 ///< one per scene->pairs: only listed pairs have topics
   MarkerStyle marker_style;             ///< as configured
   std::uint64_t settings_revision = 0;  ///< another one: the settings of pairs that were there have changed
 };
@@ -55,19 +55,23 @@ class TopicPublishers {
 
   /// Advertises the topics of pairs that have none yet; those of pairs that are gone end with the last
   /// ServedScene that names them. Not from the cycle's thread: it talks to the master.
-  std::shared_ptr<const ServedScene> serve(const std::shared_ptr<const Scene>& scene,
-                                           const ServedScene* before, const MarkerStyle& style,
+  /// Pairs that have topics of their own are listed in the scene.
+  std::shared_ptr<const ServedScene> serve(Scene scene, const ServedScene* before, const MarkerStyle& style,
                                            std::uint64_t settings_revision);
 
-  void readDemand(const ServedScene& served, const MarkerOptions& markers, std::vector<PairDemand>& demand);
+  /// Reads who listens, for the cycle that follows.
+  void readDemand(const ServedScene& served, const MarkerOptions& markers);
+  /// Returns what is wanted of the pair at this place in the cycle's pairs.
+  PairDemand demandOf(const ServedScene& served, std::size_t place, const TrackedPair& pair) const;
 
   /// Returns whether no topic has a subscriber that needs anything computed or published.
-  bool isIdle(const std::vector<PairDemand>& demand) const;
+  bool isIdle() const;
 
   /// Publishes the pairs that are due. A message is built once and not touched after it was published.
+  /// @param others the pairs by rule that `pairs` does not have
   /// @param marker_lifetime seconds
-  PublishReport publish(const ServedScene& served, const PublishedPairs& pairs, double marker_lifetime,
-                        ros::Time now);
+  PublishReport publish(const ServedScene& served, const PublishedPairs& pairs, const OtherPairs& others,
+                        double marker_lifetime, ros::Time now);
 
   /// The alerts of pairs that left the scene (DistanceCycle::takeRetired).
   void publishRetired(const PublishedPairs& pairs);
@@ -77,8 +81,8 @@ class TopicPublishers {
   /// @return how many markers
   std::size_t publishMarkers(const ServedScene& served, const PublishedPairs& pairs, double lifetime,
                              ros::Time now);
-  void publishLists(const PublishedPairs& pairs, ros::Time now);
-  void publishNearest(const PublishedPairs& pairs, ros::Time now);
+  void publishLists(const PublishedPairs& pairs, const OtherPairs& others, ros::Time now);
+  void publishNearest(const PublishedPairs& pairs, const OtherPairs& others, ros::Time now);
   void publishContacts(const ServedScene& served, const PublishedPairs& pairs, ros::Time now);
 
   ros::NodeHandle node_;
@@ -99,9 +103,12 @@ class TopicPublishers {
   bool contacts_wanted_ = false;
   bool markers_wanted_ = false;
   bool contact_markers_wanted_ = false;
+  bool alerts_wanted_ = false;
+  bool own_wanted_ = false;  ///< a pair's own topics
+  bool are_markers_due_ = false;  ///< in this cycle, when somebody listens
   bool markers_due_ = false;
   std::unique_ptr<SceneMarkers> drawing_;
-  std::vector<PairNiches> messages_;                ///< of the pairs that are due
+  std::vector<PairNiches> messages_;                ///< of the pairs in lists
   std::vector<PairContactState> contact_messages_;  ///< of those whose effects are wanted
 };
 

@@ -142,7 +142,7 @@ TEST(RobotDemo, HasThirtyFivePairsAndTwelveOfThemBetweenBodiesOfFiveThousandTria
   EXPECT_TRUE(scene.problems.empty());
   int enabled = 0;
   int large = 0;
-  for (const ScenePair& pair : scene.pairs) {
+  for (const ScenePair& pair : allPairs(scene)) {
     if (!pair.enabled) continue;
     ++enabled;
     const auto size = [&](std::size_t body) { return scene.bodies[body].mesh->surface().triangleCount(); };
@@ -158,7 +158,7 @@ TEST(RobotDemo, NeverComesNearerThanACentimetre) {
   std::vector<std::shared_ptr<const FclModel>> models;
   for (const SceneBody& body : scene.bodies) models.push_back(benchmark::makeFclModel(body.mesh->surface()));
   constexpr double kLeast = 0.01;  // metres
-  for (const ScenePair& pair : scene.pairs) {
+  for (const ScenePair& pair : allPairs(scene)) {
     if (!pair.enabled) continue;
     const SceneBody& a = scene.bodies[pair.body_a];
     const SceneBody& b = scene.bodies[pair.body_b];

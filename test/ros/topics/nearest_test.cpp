@@ -28,7 +28,7 @@ class NearestTest : public ::testing::Test {
     DistanceCycle cycle(transforms, {"world", 1.0, 1});
     cycle.setScene(scene);
     cycle.run({kDistance, kDistance}, now);
-    return nearestOf(cycle.pairs(), "world", now);
+    return nearestOf(cycle.pairs(), cycle.others(), "world", now);
   }
   Nearest answer() { return answer(buffer); }
 
@@ -121,7 +121,7 @@ TEST_F(NearestTest, TheNumberIsTheBoundOfAProofThatEndedEarly) {
   for (const SolveStatus status :
        {SolveStatus::BudgetExhausted, SolveStatus::MemoryExhausted, SolveStatus::WithinTolerance}) {
     solution.status = status;
-    const Nearest nearest = nearestOf(cycle.pairs(), "world", now);
+    const Nearest nearest = nearestOf(cycle.pairs(), cycle.others(), "world", now);
     EXPECT_EQ(nearest.pair, "a/b");
     EXPECT_FALSE(nearest.is_minimum) << "a/c may be nearer";
     EXPECT_EQ(nearest.number, 0.25) << toString(status);
@@ -130,7 +130,7 @@ TEST_F(NearestTest, TheNumberIsTheBoundOfAProofThatEndedEarly) {
 }
 
 TEST_F(NearestTest, SaysThatNoPairIsWatched) {
-  const Nearest nearest = nearestOf({}, "world", now);
+  const Nearest nearest = nearestOf({}, {}, "world", now);
   EXPECT_FALSE(nearest.has_distance);
   EXPECT_FALSE(nearest.has_number);
   EXPECT_FALSE(nearest.has_lower_bound);

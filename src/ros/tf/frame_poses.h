@@ -1,0 +1,90 @@
+#pragma once
+
+#include <ros/time.h>
+#include <tf2/buffer_core.h>
+
+#include <Eigen/Geometry>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "concave_distance/scene/body_poses.h"
+#include "tf_poses.h"
+
+namespace concave_distance {
+
+/// Where a body's frame is in one cycle.
+struct FramePlace {
+  TransformStatus status = TransformStatus::Missing;
+  std::string message;  ///< why it is Missing
+  ros::Time stamp;      ///< the newest time at which it is known in the reference frame; zero: fixed
+};
+
+/// Finds the poses of many frames in a reference frame, each once a cycle: every edge of the tf tree between
+/// them is looked up at its newest time, and at the newest times of other frames before that. A pair of
+/// frames has the earlier of their two newest times, as from lookUpPair(). Where the frames have more than
+/// kMostTimes newest times, they are grouped, and each counts as the earliest of its group.
+class FramePoses {
+ public:
+  static constexpr std::size_t kMostTimes = 4;
+
+  /// @param frames of the bodies, in their order
+  /// @param epoch that poses() counts its seconds from; zero: the first update()
+  void setFrames(const std::string& reference, const std::vector<std::string>& frames, ros::Time epoch);
+  ros::Time epoch() const { return epoch_; }
+  /// A frame whose newest time is older than `stale_after` seconds is Stale, and unknown to poses(). One that
+  /// is ahead of `now` is taken at `now`, where tf has that.
+  void update(const tf2::BufferCore& buffer, ros::Time now, double stale_after);
+
+  /// Returns the poses of the last update(). Its times are seconds since epoch().
+  const BodyPoses& poses() const { return poses_; }
+  const FramePlace& place(std::size_t body) const { return places_[place_of_body_[body]]; }
+  /// Returns the time at which two bodies are known together; zero: both are fixed.
+  ros::Time commonStamp(std::size_t body_a, std::size_t body_b) const;
+  /// Returns reference_from_body at the time that it has together with another body.
+  Eigen::Isometry3d referenceFrom(std::size_t body, std::size_t other) const;
+
+ private:
+  static constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
+  /// A frame with the transform to its parent.
+  struct Node {
+    std::string name;
+    std::size_t parent = kNone;
+    std::size_t depth = 0;
+    FrameTransform edge;  ///< at its newest time
+    std::array<Eigen::Isometry3d, kMostTimes> parent_from_node;
+    std::array<bool, kMostTimes> is_known{};
+  };
+  void buildTree(const tf2::BufferCore& buffer);
+  std::size_t nodeOf(const tf2::BufferCore& buffer, const std::string& frame, std::size_t length);
+  void lookUpEdges(const tf2::BufferCore& buffer, ros::Time now);
+  void findPlaces(const tf2::BufferCore& buffer, ros::Time now, double stale_after);
+  void chooseTimes();
+  void lookUpTimes(const tf2::BufferCore& buffer);
+  void fillPoses(ros::Time now);
+  bool isKnownAt(std::size_t node, std::size_t time) const;
+  std::size_t ancestorOf(std::size_t a, std::size_t b) const;
+  Eigen::Isometry3d fromAncestor(std::size_t ancestor, std::size_t node, std::size_t time) const;
+  Eigen::Isometry3d between(std::size_t target, std::size_t source, std::size_t time) const;
+  std::size_t timeOf(ros::Time stamp) const;
+
+  std::string reference_;
+  std::vector<std::string> frames_;         ///< each once
+  std::vector<std::size_t> place_of_body_;  ///< in frames_
+  std::vector<Node> nodes_;
+  std::unordered_map<std::string, std::size_t> node_of_;
+  std::size_t reference_node_ = kNone;
+  std::vector<std::size_t> node_of_frame_;
+  bool is_whole_ = false;  ///< every frame is connected with the reference frame
+  std::vector<FramePlace> places_;       ///< of frames_
+  std::vector<ros::Time> stamps_;        ///< ascending, at most kMostTimes
+  std::vector<ros::Time> all_stamps_;
+  BodyPoses poses_;
+  ros::Time epoch_;
+};
+
+}  // namespace concave_distance

@@ -1,0 +1,369 @@
+#include "near_pairs.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "base/constants.h"
+#include "body_box.h"
+#include "concave_distance/scene/broad_phase.h"
+#include "tracking/relative_motion.h"
+
+namespace concave_distance {
+namespace {
+
+constexpr double kRestSeconds = 2.0;        // that a pair which has left is kept
+constexpr std::size_t kMostResting = 256;   // pairs: their trackers take memory
+constexpr std::size_t kMostUnknown = 1000;  // pairs that have a tracker because a body has no pose
+
+std::uint64_t keyOf(SlotPair slots) {
+  return std::uint64_t{slots.a} << 32U | slots.b;
+}
+
+double reachOf(const PairSettings& settings) {
+  const double warned =
+      settings.warning_distance ? *settings.warning_distance + settings.warning_hysteresis : 0.0;
+  return std::max(settings.tracker.cutoff, warned);
+}
+
+// The largest reach of a pair of each class; below 0: none.
+std::vector<double> reachesOf(const Scene& scene, bool has_added) {
+  std::vector<double> reaches(scene.rules.classes, -1.0);
+  for (std::size_t row = 0; row < scene.rules.classes; ++row) {
+    for (std::size_t column = 0; column < scene.rules.classes; ++column) {
+      const PairRule& rule = scene.rules.of(row, column);
+      if (!rule.is_enabled || !(rule.is_watched || has_added)) continue;
+      const double reach = reachOf(settingsOf(scene, rule));
+      reaches[row] = std::max(reaches[row], reach);
+      reaches[column] = std::max(reaches[column], reach);
+    }
+  }
+  return reaches;
+}
+
+std::size_t findBySerial(const std::unordered_map<std::uint64_t, std::size_t>& places,
+                         const SceneBody& body, const Scene& scene) {
+  const auto found = places.find(body.serial);
+  const bool is_there = found != places.end() && isSameBody(scene.bodies[found->second], body);
+  return is_there ? found->second : scene.bodies.size();
+}
+
+// What a near pair is in another scene: nullptr when no rule watches it there.
+std::shared_ptr<const ScenePair> pairIn(const Scene& scene, std::size_t a, std::size_t b,
+                                        const TrackedPair& tracked, bool settings_changed) {
+  if (a == scene.bodies.size() || b == scene.bodies.size()) return nullptr;
+  const PairRule* rule = ruleOf(scene, a, b);
+  if (rule == nullptr || !rule->is_enabled) return nullptr;
+  const bool is_shared = &scene.bodies[a] == tracked.body_a.get() && &scene.bodies[b] == tracked.body_b.get();
+  if (!settings_changed && is_shared && tracked.origin->body_a == a && tracked.origin->body_b == b) {
+    return tracked.origin;
+  }
+  return std::make_shared<const ScenePair>(*ruledPair(scene, a, b));
+}
+
+}  // namespace
+
+NearPairs::Plan NearPairs::plan(const Scene& scene, bool settings_changed) const {
+  Plan next;
+  next.scene = scene;
+  next.free_slots = now_.free_slots;
+  next.freed_slots = now_.freed_slots;
+  next.slot_count = now_.slot_count;
+  std::unordered_map<std::uint64_t, std::size_t> places;
+  bool has_added = false;
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    places.emplace(scene.bodies[i].serial, i);
+    has_added = has_added || scene.bodies[i].added_rule;
+  }
+  const std::vector<double> reaches = reachesOf(scene, has_added);
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    const std::shared_ptr<const SceneBody> body = scene.bodies.share(i);
+    const auto known = now_.slot_of.find(body->serial);
+    std::uint32_t slot = 0;
+    if (known != now_.slot_of.end()) {
+      slot = known->second;
+    } else if (!next.free_slots.empty()) {
+      slot = next.free_slots.back();
+      next.free_slots.pop_back();
+    } else {
+      slot = next.slot_count++;
+    }
+    next.slot_of.emplace(body->serial, slot);
+    const double reach = reaches[body->pair_class];
+    next.has_rules = next.has_rules || reach >= 0.0;
+    next.bodies.push_back({body, slot, reach < 0.0 ? reach : 0.5 * reach});
+  }
+  for (const Plan::Body& body : now_.bodies) {
+    if (next.slot_of.count(body.body->serial) == 0) next.freed_slots.push_back(body.slot);
+  }
+  for (const std::shared_ptr<TrackedPair>& pair : pairs_) {
+    next.pairs.push_back(pairIn(scene, findBySerial(places, *pair->body_a, scene),
+                                findBySerial(places, *pair->body_b, scene), *pair, settings_changed));
+  }
+  next.ruled = next.has_rules ? countRuledPairs(scene) : 0;
+  return next;
+}
+
+void NearPairs::adopt(Plan&& plan, bool settings_changed, std::uint64_t& largest_id) {
+  for (const Plan::Body& body : now_.bodies) {
+    const auto found = plan.slot_of.find(body.body->serial);
+    if (found == plan.slot_of.end()) sweep_.remove(body.slot);
+  }
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < pairs_.size(); ++i) {
+    std::shared_ptr<const ScenePair>& pair = plan.pairs[i];
+    if (!pair) continue;
+    if (pair != pairs_[i]->origin || settings_changed) {
+      const auto& a = plan.scene.bodies.share(pair->body_a);
+      const auto& b = plan.scene.bodies.share(pair->body_b);
+      pairs_[i]->adopt(std::move(pair), a, b, settings_changed);
+    }
+    pairs_[kept] = std::move(pairs_[i]);
+    entries_[kept] = entries_[i];
+    ++kept;
+  }
+  entries_.resize(kept);
+  pairs_.resize(kept);
+  entry_of_.clear();
+  // What rests may be of bodies that are gone or changed.
+  for (Resting& resting : resting_) largest_id = std::max(largest_id, resting.pair->largest_id);
+  const auto is_gone = [&](const Resting& resting) {
+    const auto is_there = [&](const SceneBody& body) {
+      const auto found = plan.slot_of.find(body.serial);
+      if (found == plan.slot_of.end()) return false;
+      const auto at = std::find_if(plan.bodies.begin(), plan.bodies.end(),
+                                   [&](const Plan::Body& now) { return now.slot == found->second; });
+      return at->body.get() == &body;
+    };
+    return settings_changed || !is_there(*resting.pair->body_a) || !is_there(*resting.pair->body_b);
+  };
+  resting_.erase(std::remove_if(resting_.begin(), resting_.end(), is_gone), resting_.end());
+  plan.pairs.clear();
+  now_ = std::move(plan);
+  asks_all_ = true;
+  ++revision_;
+}
+
+void NearPairs::recover() {
+  sweep_.clear();
+  cut_.clear();
+  unknown_before_.clear();
+  for (Entry& entry : entries_) entry.is_by_box = entry.is_by_unknown = false;
+  asks_all_ = true;
+  keeps_left_ = true;
+  entries_.resize(std::min(entries_.size(), pairs_.size()));
+  pairs_.resize(entries_.size());
+  entry_of_.clear();
+  ++revision_;
+}
+
+void NearPairs::update(const BodyPoses& poses, std::uint64_t& largest_id) {
+  if (!now_.has_rules && pairs_.empty()) {
+    others_ = {};
+    return;
+  }
+  if (!keeps_left_) dropLeft(poses.now, largest_id);
+  keeps_left_ = false;
+  dropRested(poses.now, largest_id);
+  if (asks_all_) {
+    place_of_slot_.assign(now_.slot_count, 0);
+    for (std::size_t i = 0; i < now_.bodies.size(); ++i) place_of_slot_[now_.bodies[i].slot] = i;
+    entry_of_.clear();
+    for (std::size_t i = 0; i < entries_.size(); ++i) entry_of_[keyOf(entries_[i].slots)] = i;
+    unknown_before_.clear();
+  }
+  placeBoxes(poses);
+  sweep_.update();
+  now_.free_slots.insert(now_.free_slots.end(), now_.freed_slots.begin(), now_.freed_slots.end());
+  now_.freed_slots.clear();
+  for (const SlotPair slots : sweep_.ended()) {
+    const auto found = entry_of_.find(keyOf(slots));
+    if (found != entry_of_.end()) entries_[found->second].is_by_box = false;
+  }
+  if (std::exchange(asks_all_, false)) {
+    cut_.clear();
+    sweep_.overlaps().visit([&](SlotPair slots) { admit(slots, largest_id, true); });
+  } else {
+    for (const SlotPair slots : sweep_.begun()) admit(slots, largest_id, true);
+  }
+  if (unknown_ != unknown_before_) admitUnknown(largest_id);
+  cut_bound_ = kInfinity;
+  if (!cut_.empty()) admitCut(poses, largest_id);
+  fillOthers();
+}
+
+void NearPairs::placeBoxes(const BodyPoses& poses) {
+  unknown_.assign(now_.bodies.size(), false);
+  for (std::size_t i = 0; i < now_.bodies.size(); ++i) {
+    const Plan::Body& body = now_.bodies[i];
+    if (body.half_reach < 0.0) {
+      sweep_.remove(body.slot);
+      continue;
+    }
+    const std::int32_t newest = poses.newest[i];
+    const std::size_t times = newest == BodyPoses::kFixed ? 1 : static_cast<std::size_t>(newest + 1);
+    Eigen::AlignedBox3d box;
+    bool is_known = newest != BodyPoses::kUnknown;
+    const auto oldest = static_cast<std::size_t>(poses.oldest[i]);
+    for (std::size_t time = oldest; is_known && time < times; ++time) {
+      const std::optional<Eigen::Isometry3d> pose = rigidPose(poses.pose(i, time));
+      is_known = pose.has_value();
+      if (is_known) box.extend(boxAt(body.body->bounds, *pose, body.body->margin + body.half_reach));
+    }
+    unknown_[i] = !is_known;
+    if (is_known && poses.oldest[i] > 0) {  // where it was before, nobody knows
+      box.min().setConstant(-kInfinity);
+      box.max().setConstant(kInfinity);
+    }
+    if (is_known) {
+      sweep_.set(body.slot, box.min(), box.max());
+    } else {
+      sweep_.remove(body.slot);
+    }
+  }
+}
+
+// Pairs that nothing has kept near in the last cycle.
+void NearPairs::dropLeft(double now, std::uint64_t& largest_id) {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < entries_.size(); ++i) {
+    if (entries_[i].is_by_box || entries_[i].is_by_unknown) {
+      if (kept != i) {
+        entries_[kept] = entries_[i];
+        pairs_[kept] = std::move(pairs_[i]);
+        entry_of_[keyOf(entries_[kept].slots)] = kept;
+      }
+      ++kept;
+      continue;
+    }
+    entry_of_.erase(keyOf(entries_[i].slots));
+    largest_id = std::max(largest_id, pairs_[i]->largest_id);
+    if (pairs_[i]->tracker() != nullptr) resting_.push_back({entries_[i].slots, now, std::move(pairs_[i])});
+  }
+  if (kept == entries_.size()) return;
+  entries_.resize(kept);
+  pairs_.resize(kept);
+  ++revision_;
+}
+
+void NearPairs::dropRested(double now, std::uint64_t& largest_id) {
+  std::size_t gone = resting_.size() - std::min(resting_.size(), kMostResting);
+  // A clock that jumps back ends all rest.
+  while (gone < resting_.size() && !(std::abs(now - resting_[gone].since) <= kRestSeconds)) ++gone;
+  for (std::size_t i = 0; i < gone; ++i) largest_id = std::max(largest_id, resting_[i].pair->largest_id);
+  resting_.erase(resting_.begin(), resting_.begin() + static_cast<std::ptrdiff_t>(gone));
+}
+
+std::shared_ptr<TrackedPair> NearPairs::takeRested(SlotPair slots) {
+  const auto found = std::find_if(resting_.begin(), resting_.end(), [&](const Resting& resting) {
+    return resting.slots.a == slots.a && resting.slots.b == slots.b;
+  });
+  if (found == resting_.end()) return nullptr;
+  std::shared_ptr<TrackedPair> pair = std::move(found->pair);
+  resting_.erase(found);
+  return pair;
+}
+
+void NearPairs::admit(SlotPair slots, std::uint64_t largest_id, bool is_by_box) {
+  const auto found = entry_of_.find(keyOf(slots));
+  if (found != entry_of_.end()) {
+    Entry& entry = entries_[found->second];
+    (is_by_box ? entry.is_by_box : entry.is_by_unknown) = true;
+    return;
+  }
+  const Scene& scene = now_.scene;
+  const std::size_t a = placeOf(slots.a);
+  const std::size_t b = placeOf(slots.b);
+  const PairRule* rule = ruleOf(scene, a, b);
+  if (rule == nullptr || !rule->is_enabled) return;
+  if (entries_.size() >= scene.limits.pairs) {
+    if (is_by_box) cut_.push_back(slots);
+    return;
+  }
+  std::shared_ptr<TrackedPair> pair = takeRested(slots);
+  if (!pair) {
+    auto origin = std::make_shared<const ScenePair>(*ruledPair(scene, a, b));
+    const std::size_t body_a = origin->body_a;
+    const std::size_t body_b = origin->body_b;
+    pair = std::make_shared<TrackedPair>(std::move(origin), now_.bodies[body_a].body,
+                                         now_.bodies[body_b].body, largest_id);
+  }
+  pairs_.push_back(std::move(pair));
+  entries_.push_back({slots, is_by_box, !is_by_box});
+  entry_of_[keyOf(slots)] = entries_.size() - 1;
+  ++revision_;
+}
+
+// Those that are tracked first: their alerts must know.
+void NearPairs::admitUnknown(std::uint64_t largest_id) {
+  std::size_t admitted = 0;
+  for (Entry& entry : entries_) {
+    entry.is_by_unknown = unknown_[placeOf(entry.slots.a)] || unknown_[placeOf(entry.slots.b)];
+    admitted += entry.is_by_unknown ? 1 : 0;
+  }
+  bool is_any = false;
+  for (std::size_t i = 0; i < unknown_.size(); ++i) {
+    is_any = is_any || unknown_[i];
+    for (std::size_t j = 0; unknown_[i] && j < unknown_.size() && admitted < kMostUnknown; ++j) {
+      if (now_.bodies[j].half_reach < 0.0 || j == i) continue;
+      const std::size_t before = entries_.size();
+      admit(slotPair(now_.bodies[i].slot, now_.bodies[j].slot), largest_id, false);
+      admitted += entries_.size() - before;
+    }
+  }
+  missing_ = is_any ? now_.ruled - countRuledPairs(now_.scene, unknown_) - admitted : 0;
+  unknown_before_ = unknown_;
+}
+
+// The nearest first, where there is room again.
+void NearPairs::admitCut(const BodyPoses& poses, std::uint64_t largest_id) {
+  std::vector<std::pair<double, SlotPair>> left;
+  for (const SlotPair slots : cut_) {
+    if (!sweep_.overlaps().contains(slots) || entry_of_.count(keyOf(slots)) != 0) continue;
+    const std::size_t a = placeOf(slots.a);
+    const std::size_t b = placeOf(slots.b);
+    const PairRule* rule = ruleOf(now_.scene, a, b);
+    if (rule == nullptr || !rule->is_enabled) continue;
+    const auto newest = [&](std::size_t body) {
+      return poses.newest[body] == BodyPoses::kFixed ? poses.stride() - 1
+                                                     : static_cast<std::size_t>(poses.newest[body]);
+    };
+    const std::size_t time = std::min(newest(a), newest(b));
+    const SceneBody& body_a = *now_.bodies[a].body;
+    const SceneBody& body_b = *now_.bodies[b].body;
+    const Eigen::Isometry3d a_from_b = poses.relative
+                                           ? poses.relative(a, b, time)
+                                           : poses.pose(a, time).inverse(Eigen::Isometry) * poses.pose(b, time);
+    left.emplace_back(
+        distanceLowerBound(body_a.bounds, body_b.bounds, a_from_b, body_a.margin + body_b.margin), slots);
+  }
+  std::sort(left.begin(), left.end(), [](const auto& l, const auto& r) {
+    return l.first != r.first ? l.first < r.first : keyOf(l.second) < keyOf(r.second);
+  });
+  cut_.clear();
+  for (const auto& [bound, slots] : left) {
+    admit(slots, largest_id, true);
+    if (entry_of_.count(keyOf(slots)) == 0) cut_bound_ = std::min(cut_bound_, bound);
+  }
+}
+
+// Boxes that do not overlap are farther apart than what both are widened by.
+void NearPairs::fillOthers() {
+  others_ = {};
+  others_.missing = missing_;
+  others_.cut = cut_.size();
+  const std::uint64_t counted = entries_.size() + missing_ + cut_.size();
+  others_.beyond = now_.ruled > counted ? now_.ruled - counted : 0;
+  double least = kInfinity;
+  double second = kInfinity;
+  for (std::size_t i = 0; others_.beyond > 0 && i < now_.bodies.size(); ++i) {
+    const double half_reach = now_.bodies[i].half_reach;
+    if (half_reach < 0.0 || unknown_[i]) continue;
+    second = std::min(second, std::max(least, half_reach));
+    least = std::min(least, half_reach);
+  }
+  others_.lower_bound = std::min(cut_bound_, others_.beyond > 0 ? least + second : kInfinity);
+}
+
+}  // namespace concave_distance
