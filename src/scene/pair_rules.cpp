@@ -13,8 +13,9 @@ namespace concave_distance {
 namespace {
 
 bool isFiltered(const PairRules& rules, std::uint64_t serial_a, std::uint64_t serial_b) {
-  return rules.filtered && std::binary_search(rules.filtered->begin(), rules.filtered->end(),
-                                              std::pair<std::uint64_t, std::uint64_t>(std::minmax(serial_a, serial_b)));
+  return rules.filtered &&
+         std::binary_search(rules.filtered->begin(), rules.filtered->end(),
+                            std::pair<std::uint64_t, std::uint64_t>(std::minmax(serial_a, serial_b)));
 }
 
 // Without filters.
@@ -72,8 +73,8 @@ const PairRule* ruleOf(const Scene& scene, std::size_t body_a, std::size_t body_
   if (earlier == later || !isWatched(scene, earlier, later)) return nullptr;
   const SceneBody& a = scene.bodies[earlier];
   const SceneBody& b = scene.bodies[later];
-  if (a.frame == b.frame || isFiltered(scene.rules, a.serial, b.serial) ||
-      scene.pairs.find(earlier, later) || scene.rigid.areJoined(a.frame, b.frame)) {
+  if (a.frame == b.frame || isFiltered(scene.rules, a.serial, b.serial) || scene.pairs.find(earlier, later) ||
+      scene.rigid.areJoined(a.frame, b.frame)) {
     return nullptr;
   }
   return &scene.rules.of(a.pair_class, b.pair_class);
@@ -89,9 +90,8 @@ std::optional<ScenePair> ruledPair(const Scene& scene, std::size_t body_a, std::
   ScenePair pair;
   std::tie(pair.body_a, pair.body_b) = std::minmax(body_a, body_b);
   const std::shared_ptr<const AddedBodyRule>& added = scene.bodies[pair.body_b].added_rule;
-  const bool is_turned = added && added->watches(scene.bodies[pair.body_a].serial)
-                             ? true
-                             : rule->order == PairOrder::Later;
+  const bool is_turned =
+      added && added->watches(scene.bodies[pair.body_a].serial) ? true : rule->order == PairOrder::Later;
   if (is_turned) std::swap(pair.body_a, pair.body_b);
   pair.name = nameOf(scene, pair.body_a, pair.body_b);
   pair.enabled = rule->is_enabled;

@@ -40,7 +40,8 @@ inline constexpr std::size_t kMostPairsNamed = 1000;
 std::vector<std::string> changeMatchingPairs(Scene& scene, const std::string& pattern,
                                              const PairChange& change);
 
-/// Lists the pairs by rule whose names match one of the patterns, as far as the scene's limit of pairs allows.
+/// Lists the pairs by rule whose names match one of the patterns, as far as the scene's limit of pairs
+/// allows.
 void listMatchingPairs(Scene& scene, const std::vector<std::string>& patterns);
 
 }  // namespace concave_distance::detail

@@ -121,10 +121,10 @@ struct TrackedPair {
   std::unique_ptr<PairTracker> tracker_;  ///< made when the pair is first watched
   PairInput solved_input_;
   std::optional<double> beyond_since_;  ///< time at which it went beyond its cutoff with niches
-  bool stale_parameters_ = false;  ///< the tracker has to be given the settings again
-  bool must_solve_ = true;         ///< even when the input is the last one
-  bool needs_niches_ = false;      ///< between prove() and finish(), as the next
-  bool is_proof_cut_ = false;      ///< by the end of the cycle
+  bool stale_parameters_ = false;       ///< the tracker has to be given the settings again
+  bool must_solve_ = true;              ///< even when the input is the last one
+  bool needs_niches_ = false;           ///< between prove() and finish(), as the next
+  bool is_proof_cut_ = false;           ///< by the end of the cycle
 };
 
 }  // namespace concave_distance
