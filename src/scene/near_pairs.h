@@ -27,7 +27,7 @@ class NearPairs {
  public:
   using Pairs = std::vector<std::shared_ptr<TrackedPair>>;
 
-  /// What another scene makes of this; adopt() takes it over and allocates nothing.
+  /// Holds what another scene makes of this; adopt() takes it over and allocates nothing.
   struct Plan {
     Scene scene;
     struct Body {

@@ -11,7 +11,7 @@ namespace concave_distance::detail {
 /// One entry for each body of a scene: whether it is on this side of some pairs.
 using BodySide = std::vector<bool>;
 
-/// What a change of rules is told about the pairs of two classes.
+/// Tells a change of rules about the pairs of two classes.
 struct RuledBodies {
   bool both_are_links = false;           ///< of robots
   PairOrder order = PairOrder::Earlier;  ///< which of the two is on side A

@@ -19,7 +19,7 @@ enum class PairOrder : std::uint8_t {
   Later
 };
 
-/// What the rules of a scene say of the pairs of two classes of bodies.
+/// Holds what the rules of a scene say of the pairs of two classes of bodies.
 struct PairRule {
   bool is_watched = false;  ///< unless a filter leaves the pair out
   bool is_enabled = true;
