@@ -37,6 +37,10 @@ class DecisionBasins {
   /// @return its id, or 0 when it is not kept
   std::uint64_t keep(std::uint64_t id, std::uint32_t first, const TrianglePair& around);
 
+  using Progress = BasinProgress;
+  /// The same as keep() until time ends it. The basin is asked for only when it is whole.
+  void keepSome(const TrianglePair& around, Progress& progress);
+
  private:
   /// A basin that has grown to more than twice its size and this many facet pairs is searched anew.
   static constexpr std::size_t kSmallBasin = 64;
@@ -66,9 +70,16 @@ class DecisionBasins {
   /// Puts the elements that have left the boundary back into it.
   void restoreBoundary(std::uint32_t index);
 
+  /// Returns an empty basin, or kNone.
+  std::uint32_t begin(std::uint64_t id, const TrianglePair& around);
   /// Extends a kept basin by what the last search has visited; without memory it drops it and returns false.
   bool extend(std::uint32_t index);
-  bool add(std::uint32_t index);
+  /// Adds the next facet pair, or where all are in it the next step of the boundary. False without memory.
+  bool addNext(Progress& progress);
+  bool isAdded(const Progress& progress) const {
+    return progress.facet_pairs == search_.facet_pairs().size() &&
+           progress.boundary_steps == search_.boundarySteps().size();
+  }
 
   DecisionCache& memory_;
   BasinSearch& search_;

@@ -119,11 +119,6 @@ class NicheDecider::Stage {
   /// Goes on with a search for candidate i at most so far, ending where it meets a place of an earlier one.
   BasinSearch::End proceed(BasinSearch& search, std::size_t most, std::uint32_t i) const;
 
-  /// Keeps a long search that time has ended.
-  void suspend(const TrianglePair& start);
-  /// Goes on with the search that was suspended, if there is one for an open candidate, and when it has ended
-  /// keeps what it found and decides by that.
-  void resumeSearch();
   /// Descends from the place below a ripple to the minimum under it.
   void descend(std::uint32_t i);
 
