@@ -261,9 +261,10 @@ TEST(NicheDecider, FinishALongSearchInLaterCyclesThoughEachIsCut) {
   for (; cycle < 2000 && !is_decided; ++cycle) {
     const PairFrame frame = PairFrame::withFacets(*hills, *bowl, pose_at(cycle));
     candidates = candidatesAt(frame);
+    WorkLimit limit(WorkLimit::Clock::now(), allowed, std::numeric_limits<std::size_t>::max(), nullptr);
+    if (!cut.goOn(limit)) continue;  // what is known is kept, though this pose is left out
     cut.begin(frame, candidates, {}, none);
     cut.judgeByMemory(frame, {}, none);
-    WorkLimit limit(WorkLimit::Clock::now(), allowed, std::numeric_limits<std::size_t>::max(), nullptr);
     cut.judgeBySearches(frame, {}, limit);
     is_decided = std::none_of(cut.judged().begin(), cut.judged().end(), [](const auto& judged) {
       return judged.decision == Decision::Undecided || judged.decision == Decision::Open;
