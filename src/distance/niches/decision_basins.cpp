@@ -11,8 +11,9 @@ constexpr std::size_t kLargestBasin = std::size_t{1} << 18U;
 }  // namespace
 
 bool DecisionBasins::takeCrossed(std::uint32_t index, double level) {
-  counts_.measured += memory_.basin(index).boundary.takeCrossed(memory_.boundaries(), frame_, level);
-  if (!memory_.boundaries().crossed.empty()) return true;
+  BoundaryPool& pool = memory_.boundaries();
+  counts_.measured += memory_.basin(index).boundary.takeCrossed(pool, frame_, level, limit_);
+  if (!pool.crossed.empty() || pool.has_unmeasured) return true;
   ++counts_.by_boundary;
   return false;
 }

@@ -22,7 +22,8 @@ class DecisionBasins {
   template <typename Meets>
   bool isEnclosed(std::uint32_t index, const BasinSearch::Levels& levels, const Meets& meets) {
     if (!takeCrossed(index, levels.highest)) return true;
-    if (searchBeyond(index, levels, meets) != BasinSearch::End::Enclosed) {
+    const bool is_cut = memory_.boundaries().has_unmeasured;
+    if (is_cut || searchBeyond(index, levels, meets) != BasinSearch::End::Enclosed) {
       restoreBoundary(index);
       return false;
     }
@@ -45,7 +46,7 @@ class DecisionBasins {
   /// A basin that has grown to more than twice its size and this many facet pairs is searched anew.
   static constexpr std::size_t kSmallBasin = 64;
 
-  /// Takes what is nearer than `level` (m) out of the boundary. Returns false when nothing is.
+  /// Takes what is nearer than `level` (m) out of the boundary. Returns false when nothing is, for certain.
   bool takeCrossed(std::uint32_t index, double level);
 
   /// Searches the facet pairs beyond the elements that have left the basin's boundary.

@@ -436,7 +436,7 @@ TEST(BasinBoundary, LosesExactlyWhatComesNearerThanTheLevel) {
     }
     for (int k = 1; k < 30; ++k) {
       const PairFrame scene = PairFrame::withFacets(*a, *b, motion.at(step * k));
-      boundary.takeCrossed(pool, scene, level);
+      boundary.takeCrossed(pool, scene, level, none);
       const std::size_t crossed = pool.crossed.size();
       const auto nearer = [&](const SharedElement& element) {
         return std::sqrt(closestOver(scene, element).squared_distance) < level;
