@@ -20,6 +20,8 @@ bool DecisionBasins::takeCrossed(std::uint32_t index, double level) {
 
 void DecisionBasins::restoreBoundary(std::uint32_t index) {
   for (const BoundaryElement& element : memory_.boundaries().crossed) {
+    const TrianglePair beyond = element.pairBeyond();
+    if (memory_.isIn(beyond.a, beyond.b, index)) continue;
     if (!memory_.basin(index).boundary.add(memory_.boundaries(), frame_, element, 0.0, limit_)) {
       memory_.drop(index);
       return;
@@ -73,6 +75,43 @@ bool DecisionBasins::extend(std::uint32_t index) {
     if (addNext(progress)) continue;
     memory_.drop(index);
     return false;
+  }
+  return true;
+}
+
+void DecisionBasins::extendPartly(std::uint32_t index) {
+  search_.findReached(is_reached_);
+  const std::vector<BasinSearch::FacetPair>& visited = search_.facet_pairs();
+  bool has_room = true;
+  for (std::size_t i = 0; i < visited.size() && has_room; ++i) {
+    if (is_reached_[i] != 0) continue;
+    const std::uint32_t number = memory_.facetPairOf(visited[i].a, visited[i].b, limit_);
+    has_room = number != DecisionCache::kNone && memory_.join(number, index, limit_) &&
+               partFromReached({visited[i].a, visited[i].b}, index);
+  }
+  Progress progress;
+  progress.basin = index;
+  progress.facet_pairs = visited.size();
+  while (has_room && !isAdded(progress)) has_room = addNext(progress);
+  if (!has_room) {
+    memory_.drop(index);
+    return;
+  }
+  restoreBoundary(index);
+}
+
+bool DecisionBasins::partFromReached(const TrianglePair& pair, std::uint32_t index) {
+  BasinBoundary& boundary = memory_.basin(index).boundary;
+  const auto part = [&](TriangleIndex a, TriangleIndex b, const BoundaryElement& element) {
+    const std::uint32_t beyond = search_.indexOf(a, b);
+    return beyond == BasinSearch::kNone || is_reached_[beyond] == 0 ||
+           boundary.add(memory_.boundaries(), frame_, element, 0.0, limit_);
+  };
+  for (const AdjacentTriangle& next : frame_.adjacency_a->row(pair.a.value)) {
+    if (!part(next.triangle, pair.b, {{Side::A, next.from, next.to, pair.b}, next.triangle})) return false;
+  }
+  for (const AdjacentTriangle& next : frame_.adjacency_b->row(pair.b.value)) {
+    if (!part(pair.a, next.triangle, {{Side::B, next.from, next.to, pair.a}, next.triangle})) return false;
   }
   return true;
 }

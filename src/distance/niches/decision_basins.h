@@ -22,8 +22,13 @@ class DecisionBasins {
   template <typename Meets>
   bool isEnclosed(std::uint32_t index, const BasinSearch::Levels& levels, const Meets& meets) {
     if (!takeCrossed(index, levels.highest)) return true;
-    const bool is_cut = memory_.boundaries().has_unmeasured;
-    if (is_cut || searchBeyond(index, levels, meets) != BasinSearch::End::Enclosed) {
+    const BasinSearch::End end =
+        memory_.boundaries().has_unmeasured ? BasinSearch::End::Long : searchBeyond(index, levels, meets);
+    if (end == BasinSearch::End::Cut && limit_.hasRefusedTime() && !limit_.hasRefusedMemory()) {
+      extendPartly(index);
+      return false;
+    }
+    if (end != BasinSearch::End::Enclosed) {
       restoreBoundary(index);
       return false;
     }
@@ -68,13 +73,18 @@ class DecisionBasins {
     return end;
   }
 
-  /// Puts the elements that have left the boundary back into it.
+  /// Puts the elements that have left the boundary, but for those inside by now, back into it.
   void restoreBoundary(std::uint32_t index);
 
   /// Returns an empty basin, or kNone.
   std::uint32_t begin(std::uint64_t id, const TrianglePair& around);
   /// Extends a kept basin by what the last search has visited; without memory it drops it and returns false.
   bool extend(std::uint32_t index);
+  /// The same for a search that time has cut, so that the next one goes on from there: what surrounds the
+  /// facet pairs that it has looked at becomes boundary, as far as it is not known at a distance of 0.
+  void extendPartly(std::uint32_t index);
+  /// Parts a facet pair of the basin from those that the search has only reached. False without memory.
+  bool partFromReached(const TrianglePair& pair, std::uint32_t index);
   /// Adds the next facet pair, or where all are in it the next step of the boundary. False without memory.
   bool addNext(Progress& progress);
   bool isAdded(const Progress& progress) const {
@@ -87,6 +97,7 @@ class DecisionBasins {
   const PairFrame& frame_;
   NicheDecider::Counts& counts_;
   WorkLimit& limit_;
+  std::vector<char> is_reached_;
 };
 
 }  // namespace concave_distance::detail
