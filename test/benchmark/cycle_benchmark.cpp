@@ -11,11 +11,14 @@
 // complete; of the cycles the share in which all are; how many cycles a pair was without a complete list at
 // most. With --pairs, each pair that ever waited: its cycles, those without a complete list, its longest
 // wait.
+#include <urdf_parser/urdf_parser.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 #include <functional>
 #include <iterator>
@@ -27,10 +30,12 @@
 #include "benchmark/support/benchmark_main.h"
 #include "benchmark/support/result_table.h"
 #include "benchmark/support/statistics.h"
+#include "concave_distance/base/error.h"
 #include "concave_distance/loading/load_scene.h"
 #include "concave_distance/loading/robot_poses.h"
 #include "concave_distance/scene/scene_tracker.h"
 #include "ros/demo/joint_path.h"
+#include "ros/demo/swaying_joints.h"
 
 namespace concave_distance::benchmark {
 namespace {
@@ -69,6 +74,23 @@ MovingScene demoScene(const std::string& name) {
             for (std::size_t i = 0; i < path.joints.size(); ++i) {
               positions[path.joints[i]] = at[static_cast<Eigen::Index>(i)];
             }
+            return positions;
+          }};
+}
+
+/// A robot beside itself, as the node loads it without a scene file.
+MovingScene ownRobot(const std::string& path, const std::string& srdf) {
+  const std::string urdf = textOf(path);
+  const urdf::ModelInterfaceSharedPtr model = urdf::parseURDF(urdf);
+  if (!model) throw Error(path, "the URDF cannot be read", "name robot, cell or a file with a URDF");
+  SceneLoadOptions options = loadOptions();
+  options.mesh_search_path = {path};
+  options.automatic_cutoff = true;
+  if (!srdf.empty()) options.descriptions["robot_description_semantic"] = textOf(srdf);
+  return {loadRobotScene(urdf, path, options), RobotPoses(urdf),
+          [joints = demo::swayingJoints(*model)](double time) {
+            Positions positions;
+            for (const demo::SwayingJoint& joint : joints) positions[joint.name] = joint.at(time);
             return positions;
           }};
 }
@@ -160,10 +182,12 @@ void measure(const MovingScene& moving, const std::string& name, std::uint32_t t
 int benchmarkMain(int argc, char** argv) {
   CLI::App app("Cycles with an end: lateness and complete lists");
   std::string scene = "robot";
+  std::string srdf;
   std::string output;
   std::vector<std::uint32_t> threads{1, 2};
   Settings settings;
   app.add_option("scene", scene);
+  app.add_option("--srdf", srdf);
   app.add_option("--seconds", settings.seconds);
   app.add_option("--rate", settings.rate);
   app.add_option("--share", settings.share);
@@ -171,11 +195,13 @@ int benchmarkMain(int argc, char** argv) {
   app.add_flag("--pairs", settings.prints_pairs);
   app.add_option("--output", output);
   CLI11_PARSE(app, argc, argv);
-  const MovingScene moving = demoScene(scene);
+  const bool is_demo = scene == "robot" || scene == "cell";
+  const MovingScene moving = is_demo ? demoScene(scene) : ownRobot(scene, srdf);
+  const std::string name = is_demo ? scene : std::filesystem::path(scene).stem().string();
   ResultTable table(output,
                     "scene,threads,pairs,near,cycles,late,mean_ms,p99_ms,longest_ms,lists_complete,"
                     "cycles_complete,longest_wait");
-  for (const std::uint32_t count : threads) measure(moving, scene, count, settings, table);
+  for (const std::uint32_t count : threads) measure(moving, name, count, settings, table);
   return 0;
 }
 
