@@ -1,6 +1,6 @@
 // Cycles with an end, as the node runs them, without ROS: how many are late, and how long lists wait.
 //
-//   cycle_benchmark robot|cell|ROBOT.urdf [--srdf FILE] [--seconds 60] [--rate 50] [--share 0.8]
+//   cycle_benchmark [robot] [cell] [ROBOT.urdf[,ROBOT.srdf] ...] [--seconds 60] [--rate 50] [--share 0.8]
 //   [--threads 1,2] [--pairs] [--output FILE]
 //
 // The arm of the demo scenes moves along its path; every joint of another robot sways. Poses follow each
@@ -79,14 +79,18 @@ MovingScene demoScene(const std::string& name) {
 }
 
 /// A robot beside itself, as the node loads it without a scene file.
-MovingScene ownRobot(const std::string& path, const std::string& srdf) {
+MovingScene ownRobot(const std::string& files) {
+  const std::size_t comma = files.find(',');
+  const std::string path = files.substr(0, comma);
   const std::string urdf = textOf(path);
   const urdf::ModelInterfaceSharedPtr model = urdf::parseURDF(urdf);
   if (!model) throw Error(path, "the URDF cannot be read", "name robot, cell or a file with a URDF");
   SceneLoadOptions options = loadOptions();
   options.mesh_search_path = {path};
   options.automatic_cutoff = true;
-  if (!srdf.empty()) options.descriptions["robot_description_semantic"] = textOf(srdf);
+  if (comma != std::string::npos) {
+    options.descriptions["robot_description_semantic"] = textOf(files.substr(comma + 1));
+  }
   return {loadRobotScene(urdf, path, options), RobotPoses(urdf),
           [joints = demo::swayingJoints(*model)](double time) {
             Positions positions;
@@ -181,13 +185,11 @@ void measure(const MovingScene& moving, const std::string& name, std::uint32_t t
 
 int benchmarkMain(int argc, char** argv) {
   CLI::App app("Cycles with an end: lateness and complete lists");
-  std::string scene = "robot";
-  std::string srdf;
+  std::vector<std::string> scenes{"robot", "cell"};
   std::string output;
   std::vector<std::uint32_t> threads{1, 2};
   Settings settings;
-  app.add_option("scene", scene);
-  app.add_option("--srdf", srdf);
+  app.add_option("scenes", scenes);
   app.add_option("--seconds", settings.seconds);
   app.add_option("--rate", settings.rate);
   app.add_option("--share", settings.share);
@@ -195,13 +197,15 @@ int benchmarkMain(int argc, char** argv) {
   app.add_flag("--pairs", settings.prints_pairs);
   app.add_option("--output", output);
   CLI11_PARSE(app, argc, argv);
-  const bool is_demo = scene == "robot" || scene == "cell";
-  const MovingScene moving = is_demo ? demoScene(scene) : ownRobot(scene, srdf);
-  const std::string name = is_demo ? scene : std::filesystem::path(scene).stem().string();
   ResultTable table(output,
                     "scene,threads,pairs,near,cycles,late,mean_ms,p99_ms,longest_ms,lists_complete,"
                     "cycles_complete,longest_wait");
-  for (const std::uint32_t count : threads) measure(moving, name, count, settings, table);
+  for (const std::string& scene : scenes) {
+    const bool is_demo = scene == "robot" || scene == "cell";
+    const MovingScene moving = is_demo ? demoScene(scene) : ownRobot(scene);
+    const std::string name = std::filesystem::path(scene.substr(0, scene.find(','))).stem().string();
+    for (const std::uint32_t count : threads) measure(moving, name, count, settings, table);
+  }
   return 0;
 }
 
