@@ -6,13 +6,12 @@
 #include <limits>
 #include <utility>
 
-#include "distance/bound/round_certificate.h"
-#include "distance/bound/solid_overlap.h"
 #include "distance/kernels/pair_motion.h"
 #include "distance/niches/niche_properties.h"
 #include "mesh/trees/normal_cone_tree.h"
 #include "node_niches.h"
 #include "padded_solution.h"
+#include "pair_answer.h"
 #include "rigid_pose.h"
 #include "search_stage.h"
 
@@ -131,7 +130,7 @@ void PairCycle::putOffNiches(PairSolution& solution) {
     if (l.niche.distance != r.niche.distance) return l.niche.distance < r.niche.distance;
     return l.niche.id < r.niche.id;
   });
-  listNiches(carried_, solution);
+  listNiches(parameters_, carried_, solution);
   reportAlone(solution);
   const Moment last_niches = last_niches_;
   end(solution);
@@ -142,7 +141,7 @@ void PairCycle::putOffNiches(PairSolution& solution) {
 // The answer of the first half is in the frame that A was modelled in, and is given again.
 void PairCycle::beginSecondHalf(PairSolution& solution) {
   const StageTimes stages = solution.stages;
-  clear(solution);
+  clearAnswer(parameters_, cycle_, isWarm(), solution);
   solution.stages = stages;
   stage_clock_.start();
 }
@@ -152,7 +151,7 @@ bool PairCycle::begin(const Eigen::Isometry3d& pose, double time, PairSolution& 
   limit_.setTaken(memoryBytes());
   is_tracked_ = is_tracked;
   is_proof_cut_ = false;
-  clear(solution);
+  clearAnswer(parameters_, cycle_, isWarm(), solution);
   solution.a_from_b = pose;
   const std::optional<Eigen::Isometry3d> rigid = rigidPose(pose);
   if (!rigid) {
@@ -307,13 +306,15 @@ void PairCycle::report(PairSolution& solution) {
     reportAlone(solution);
     return reportCompleteness(solution);
   }
-  listNiches(niches(), solution);
+  listNiches(parameters_, niches(), solution);
   if (proves()) {
     proof_.report(solution);
   } else {
-    reportNearest(solution);
+    answerByNearest(*frame_, niches(), isExact() ? niches_.nearestProposed() : nullptr, isRound(), solution,
+                    limit_);
   }
-  reportMiss(since_niches_.displacement, solution);
+  if (isWarm())
+    solution.search_miss = proves() ? hasMissedNiche(solution.niches) : hasMissedNearest(solution);
   if (!solution.niches.empty() && solution.niches.front().distance == solution.distance) {
     solution.normal_in_a = solution.niches.front().normal_in_a;
     solution.closing_speed = solution.niches.front().closing_speed;
@@ -331,75 +332,10 @@ void PairCycle::reportAlone(PairSolution& solution) {
   if (elapsed > 0.0) solution.closing_speed = (distance_before_ - proof_.certificate().distance) / elapsed;
 }
 
-void PairCycle::listNiches(std::vector<NicheRecord>& records, PairSolution& solution) {
-  if (!records.empty()) {
-    records.front().niche.prominence = std::numeric_limits<double>::infinity();
-  }
-  for (NicheRecord& record : records) {
-    if (record.niche.distance > parameters_.cutoff + parameters_.margin()) {
-      ++solution.niches_beyond_cutoff;
-      continue;
-    }
-    if (solution.niches.size() == parameters_.largest_niche_count) {
-      solution.niches_cut = true;
-      continue;
-    }
-    if (&record != &records.front() && std::isinf(record.niche.prominence)) {
-      record.niche.prominence = kNotComputed;  // it was the deepest
-    }
-    if (!record.reported) {
-      solution.events.push_back({NicheEvent::Kind::Birth, record.niche.id, 0});
-      record.reported = true;
-    }
-    solution.niches.push_back(record.niche);
-  }
-}
-
-void PairCycle::reportNearest(PairSolution& solution) {
-  const std::vector<NicheRecord>& records = niches();
-  if (!records.empty()) {
-    const TrackedNiche& nearest = records.front().niche;
-    solution.distance = nearest.distance;
-    solution.point_a_in_a = nearest.point_a_in_a;
-    solution.point_b_in_a = nearest.point_b_in_a;
-    if (nearest.distance == 0.0) {
-      solution.status = SolveStatus::Penetrating;
-      solution.meeting_triangles = TrianglePair{nearest.witness.triangle_a, nearest.witness.triangle_b};
-      return;
-    }
-  }
-  const bool overlap = isRound() ? isRoundContained(*a_, *b_, frame_->a_from_b)
-                                 : isContained(*a_, *b_, frame_->a_from_b, limit_).value_or(false);
-  const MinimumCandidate* known = niches_.nearestProposed();
-  const bool is_known_alone = records.empty() && limit_.hasRefused();
-  if (isExact() && known != nullptr && (overlap || is_known_alone)) {
-    // Not a niche, but still a bound of the distance: through material, or there was no time to find one.
-    const WitnessPair witness = isRound()
-                                    ? refineRoundWitness(*a_, *b_, frame_->a_from_b, {known->a, known->b})
-                                    : frame_->witnessOf(*known);
-    solution.distance = isRound() ? std::sqrt(witness.squared_distance) : known->distance;
-    solution.point_a_in_a = witness.point_a_in_a;
-    solution.point_b_in_a = witness.point_b_in_a;
-  }
-  if (overlap) {
-    solution.status = SolveStatus::Penetrating;
-    solution.surface_distance = solution.distance;
-    solution.distance = 0.0;
-  }
-}
-
-// At level `certified`: what was neither known nor proposed.
-void PairCycle::reportMiss(double displacement, PairSolution& solution) const {
-  if (!isWarm()) return;
-  if (proves()) {
-    solution.search_miss =
-        std::any_of(solution.niches.begin(), solution.niches.end(), [](const TrackedNiche& niche) {
-          return niche.origin == NicheOrigin::FromCones || niche.origin == NicheOrigin::Proven;
-        });
-    return;
-  }
+// Its distance is less than the motion since allows the nearest one to have become.
+bool PairCycle::hasMissedNearest(const PairSolution& solution) const {
   const double rounding = kPlateauTolerance * frame_->diameters();
-  solution.search_miss = solution.distance < last_distance_ - displacement - rounding;
+  return solution.distance < last_distance_ - since_niches_.displacement - rounding;
 }
 
 // After the limit the answer is incomplete, even with a finished proof. Where the cycle ended before the
@@ -411,28 +347,6 @@ void PairCycle::reportCompleteness(PairSolution& solution) const {
   if (!limit_.hasRefused() || solution.status == SolveStatus::Penetrating) return;
   if (cycle_ends_first_ && proves() && !limit_.hasRefusedMemory()) return;
   solution.status = limit_.hasRefusedTime() ? SolveStatus::BudgetExhausted : SolveStatus::MemoryExhausted;
-}
-
-void PairCycle::clear(PairSolution& solution) const {
-  solution.status = SolveStatus::Ok;
-  solution.accuracy = parameters_.accuracy;
-  solution.distance = solution.lower_bound = solution.surface_distance = kNotComputed;
-  solution.signed_distance = kNotComputed;
-  solution.point_a_in_a.setConstant(kNotComputed);
-  solution.point_b_in_a.setConstant(kNotComputed);
-  solution.normal_in_a.setConstant(kNotComputed);
-  solution.closing_speed = kNotComputed;
-  solution.meeting_triangles.reset();
-  solution.niches.clear();
-  solution.events.clear();
-  solution.niches_cut = solution.niches_complete = solution.search_miss = false;
-  solution.niches_beyond_cutoff = 0;
-  solution.cycle = cycle_;
-  solution.warm = isWarm();
-  solution.seed = parameters_.seed;
-  solution.cost = {};
-  solution.proof_cost = {};
-  solution.stages = {};
 }
 
 void PairCycle::prepare() {

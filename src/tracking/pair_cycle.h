@@ -74,11 +74,8 @@ class PairCycle {
   double certainDistance() const;
   void report(PairSolution& solution);
   void reportAlone(PairSolution& solution);
-  void reportNearest(PairSolution& solution);
-  void reportMiss(double displacement, PairSolution& solution) const;
+  bool hasMissedNearest(const PairSolution& solution) const;
   void reportCompleteness(PairSolution& solution) const;
-  void listNiches(std::vector<NicheRecord>& records, PairSolution& solution);
-  void clear(PairSolution& solution) const;
   bool proves() const { return provesDistance(parameters_.accuracy); }
   bool isExact() const { return parameters_.accuracy != AccuracyLevel::Nodes; }
   bool isWarm() const { return wantsNiches() ? last_niches_.known : last_cycle_.known; }

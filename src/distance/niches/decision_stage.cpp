@@ -167,19 +167,17 @@ void NicheDecider::Stage::search(std::uint32_t i) {
   BasinSearch& search = decider_.search_;
   const TrianglePair start = frame_.facetPairOf(candidate.a, candidate.b);
   search.begin(start.a, start.b, levelsOf(candidate.distance));
-  const auto meets = [&](TriangleIndex a, TriangleIndex b) { return isOfEarlier(a, b, i); };
-  const auto is_inside = [](TriangleIndex, TriangleIndex) { return false; };
-  BasinSearch::End end = search.proceed(frame_, kLongSearch, meets, is_inside, limit_);
+  BasinSearch::End end = proceed(search, kLongSearch, i);
   if (end == BasinSearch::End::Long) {
     if (settlesLong(i)) return;
-    end = search.proceed(frame_, std::numeric_limits<std::size_t>::max(), meets, is_inside, limit_);
+    end = proceed(search, std::numeric_limits<std::size_t>::max(), i);
   }
   decider_.counts_.visited_pairs += static_cast<std::uint32_t>(search.lookedAt());
   switch (end) {
     case BasinSearch::End::Enclosed:
       set(i, Decision::Niche);
-      if (i < candidate_count_ && request_.is_tracked && !decider_.suspended_ && limit_.shareOf(1.0) > 0.0 &&
-          search.lookedAt() > kLargeBasin) {
+      if (i < candidate_count_ && request_.is_tracked && !decider_.suspended_.isThere() &&
+          limit_.shareOf(1.0) > 0.0 && search.lookedAt() > kLargeBasin) {
         suspend(start);
         break;
       }
@@ -210,62 +208,41 @@ void NicheDecider::Stage::search(std::uint32_t i) {
   }
 }
 
+BasinSearch::End NicheDecider::Stage::proceed(BasinSearch& search, std::size_t most, std::uint32_t i) const {
+  const auto meets = [&](TriangleIndex a, TriangleIndex b) { return isOfEarlier(a, b, i); };
+  const auto is_inside = [](TriangleIndex, TriangleIndex) { return false; };
+  return search.proceed(frame_, most, meets, is_inside, limit_);
+}
+
 void NicheDecider::Stage::suspend(const TrianglePair& start) {
   if (decider_.search_.lookedAt() < kLongSearch || limit_.hasRefusedMemory()) return;
-  std::swap(decider_.search_, decider_.suspended_search_);
-  decider_.suspended_.emplace(Suspended{start, frame_});
+  decider_.suspended_.suspend(decider_.search_, start, frame_);
 }
 
 void NicheDecider::Stage::resumeSearch() {
-  if (!decider_.suspended_) return;
-  const TrianglePair start = decider_.suspended_->start;
-  const std::uint32_t i = memory_.candidateIn(start.a, start.b);
+  SuspendedSearch& suspended = decider_.suspended_;
+  if (!suspended.isThere()) return;
+  const std::uint32_t i = memory_.candidateIn(suspended.start().a, suspended.start().b);
   // It may come again where this pose's candidates are not all known.
   if (i == kNone || i < decider_.next_ || i >= decider_.end_) return;
-  if (decider_.judged_[i].decision != Decision::Open) {
-    decider_.suspended_.reset();
-    return;
-  }
-  const PairFrame earlier = decider_.suspended_->frame;
-  BasinSearch& search = decider_.suspended_search_;
-  const std::size_t before = search.lookedAt();
+  if (decider_.judged_[i].decision != Decision::Open) return suspended.forget();
   const auto meets = [&](TriangleIndex a, TriangleIndex b) { return isOfEarlier(a, b, i); };
-  const auto is_inside = [](TriangleIndex, TriangleIndex) { return false; };
-  const BasinSearch::End end =
-      search.proceed(earlier, std::numeric_limits<std::size_t>::max(), meets, is_inside, limit_);
-  decider_.counts_.visited_pairs += static_cast<std::uint32_t>(search.lookedAt() - before);
-  const bool is_kept_later = end == BasinSearch::End::Enclosed && limit_.shareOf(1.0) > 0.0 &&
-                             search.lookedAt() > std::max(before, kLargeBasin);
+  const BasinSearch::End end = suspended.proceed(meets, decider_.counts_, limit_);
+  const bool is_kept_later =
+      end == BasinSearch::End::Enclosed && limit_.shareOf(1.0) > 0.0 && suspended.lookedAt() > kLargeBasin;
   if (end == BasinSearch::End::Cut || is_kept_later) {
     set(i, Decision::Undecided);
-    if (limit_.hasRefusedMemory()) decider_.suspended_.reset();
+    if (limit_.hasRefusedMemory()) suspended.forget();
     return;
   }
-  decider_.suspended_.reset();
-  std::swap(decider_.search_, search);
-  if (end == BasinSearch::End::Enclosed) {
-    keepBasinOf(earlier, i);
-  } else {
-    const BasinSearch::FacetPair& last = decider_.search_.facet_pairs()[decider_.search_.last()];
-    const std::uint32_t number = memory_.facetPairOf(start.a, start.b, limit_);
-    if (number == kNone) return;
-    paths_.keepPath(decider_.search_, number);
-    if (end == BasinSearch::End::Below) paths_.keepLow({last.a, last.b});
-  }
-  decideByMemory(i);
-}
-
-void NicheDecider::Stage::keepBasinOf(const PairFrame& earlier, std::uint32_t i) {
   const MinimumCandidate& candidate = decider_.judged_[i].candidate;
-  DecisionBasins basins(memory_, decider_.search_, earlier, decider_.counts_, limit_);
-  if (!(candidate.distance > tolerance_)) return;
-  const std::uint32_t known = memory_.basinWith(basins.keep(0, i, {candidate.a, candidate.b}));
-  if (known == kNone) return;
-  // The search has met no earlier candidate where they were then; now one may be inside.
-  for (const BasinSearch::FacetPair& facet_pair : decider_.search_.facet_pairs()) {
-    memory_.basin(known).first =
-        std::min(memory_.basin(known).first, memory_.candidateIn(facet_pair.a, facet_pair.b));
+  if (end != BasinSearch::End::Enclosed) {
+    suspended.keepPath(memory_, paths_, end == BasinSearch::End::Below, limit_);
+  } else if (candidate.distance > tolerance_) {
+    suspended.keepBasin(memory_, i, candidate, decider_.counts_, limit_);
   }
+  suspended.forget();
+  decideByMemory(i);
 }
 
 double NicheDecider::Stage::passOf(std::uint32_t i, double highest) const {
@@ -276,10 +253,7 @@ double NicheDecider::Stage::passOf(std::uint32_t i, double highest) const {
   search.begin(start.a, start.b,
                {candidate.distance - tolerance_, candidate.distance + tolerance_, highest + tolerance_},
                BasinSearch::Purpose::MeasurePass);
-  const auto meets = [&](TriangleIndex a, TriangleIndex b) { return isOfEarlier(a, b, i); };
-  const auto is_inside = [](TriangleIndex, TriangleIndex) { return false; };
-  const BasinSearch::End end =
-      search.proceed(frame_, std::numeric_limits<std::size_t>::max(), meets, is_inside, limit_);
+  const BasinSearch::End end = proceed(search, std::numeric_limits<std::size_t>::max(), i);
   decider_.counts_.visited_pairs += static_cast<std::uint32_t>(search.lookedAt());
   if (end == BasinSearch::End::Cut) return std::numeric_limits<double>::quiet_NaN();
   if (end == BasinSearch::End::Enclosed) return std::numeric_limits<double>::infinity();

@@ -116,14 +116,14 @@ class NicheDecider::Stage {
   /// Decides a candidate by a search of its basin and keeps what proves the decision.
   void search(std::uint32_t i);
 
+  /// Goes on with a search for candidate i at most so far, ending where it meets a place of an earlier one.
+  BasinSearch::End proceed(BasinSearch& search, std::size_t most, std::uint32_t i) const;
+
   /// Keeps a long search that time has ended.
   void suspend(const TrianglePair& start);
   /// Goes on with the search that was suspended, if there is one for an open candidate, and when it has ended
   /// keeps what it found and decides by that.
   void resumeSearch();
-  /// Keeps the basin that a search of an earlier pose has found enclosed.
-  void keepBasinOf(const PairFrame& earlier, std::uint32_t i);
-
   /// Descends from the place below a ripple to the minimum under it.
   void descend(std::uint32_t i);
 

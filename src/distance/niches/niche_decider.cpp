@@ -9,7 +9,7 @@ namespace concave_distance::detail {
 
 void NicheDecider::clear() {
   memory_.clear();
-  suspended_.reset();
+  suspended_.forget();
   turn_ = 0;
   searches_are_long_ = false;
 }
@@ -95,7 +95,7 @@ std::uint32_t NicheDecider::nicheOf(std::uint32_t of) const {
 
 std::size_t NicheDecider::memoryBytes() const {
   return memory_.memoryBytes() + judged_.capacity() * sizeof(Judged) + search_.memoryBytes() +
-         suspended_search_.memoryBytes() + path_.memoryBytes();
+         suspended_.memoryBytes() + path_.memoryBytes();
 }
 
 }  // namespace concave_distance::detail

@@ -3,14 +3,15 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
-#include <optional>
 #include <vector>
 
 #include "basin_search.h"
 #include "bounded_path.h"
 #include "decision_cache.h"
+#include "decision_counts.h"
 #include "niche_properties.h"
 #include "niche_rule.h"
+#include "suspended_search.h"
 
 namespace concave_distance::detail {
 
@@ -36,15 +37,7 @@ class NicheDecider {
     TrianglePair below;          ///< and if not: a facet pair deeper than it
     std::uint64_t basin = 0;     ///< of a niche: the same while its boundary is; 0: none
   };
-  struct Counts {
-    std::uint32_t by_path = 0;      ///< ripples by known paths
-    std::uint32_t aimed = 0;        ///< links of paths that have got other points
-    std::uint32_t by_boundary = 0;  ///< niches by known boundaries
-    std::uint32_t mended = 0;       ///< niches by boundaries with more facet pairs inside
-    std::uint32_t searches = 0;
-    std::uint32_t visited_pairs = 0;
-    std::uint32_t measured = 0;  ///< elements of boundaries, anew
-  };
+  using Counts = DecisionCounts;
   struct Request {
     double cutoff = std::numeric_limits<double>::infinity();  ///< metres; no place beyond it is judged
     NicheRule rule;
@@ -95,20 +88,13 @@ class NicheDecider {
 
  private:
   class Stage;
-  /// A search that time has ended: it goes on at the pose where it began, and what it finds is looked at anew
-  /// at the present one.
-  struct Suspended {
-    TrianglePair start;  ///< facet pair
-    PairFrame frame;
-  };
   /// Follows the ripples downhill from `index` and returns the candidate at which the path ends.
   std::uint32_t endOf(std::uint32_t index) const;
   std::uint32_t nicheOf(std::uint32_t index) const;
 
   DecisionCache memory_;
   BasinSearch search_;
-  std::optional<Suspended> suspended_;
-  BasinSearch suspended_search_;
+  SuspendedSearch suspended_;
   BoundedPathBuffers path_;
   RefinementWorkspace refinement_;
   std::vector<Judged> judged_;
