@@ -6,12 +6,13 @@
 #include <limits>
 #include <utility>
 
+#include "distance/kernels/pair_motion.h"
 #include "distance/niches/niche_properties.h"
 #include "mesh/trees/normal_cone_tree.h"
 #include "node_niches.h"
 #include "padded_solution.h"
 #include "pair_answer.h"
-#include "relative_motion.h"
+#include "rigid_pose.h"
 #include "search_stage.h"
 
 namespace concave_distance {
@@ -176,7 +177,8 @@ void PairCycle::end(PairSolution& solution) {
 
 PairCycle::Passed PairCycle::passed(const Moment& before, const Moment& now) const {
   if (!before.known) return {std::numeric_limits<double>::infinity(), 0.0};
-  return {largestDisplacement(b_->bounds(), before.pose, now.pose), std::max(0.0, now.time - before.time)};
+  return {detail::PairMotion(before.pose, now.pose).largestIn(b_->bounds()),
+          std::max(0.0, now.time - before.time)};
 }
 
 void PairCycle::solve(const Eigen::Isometry3d& pose, PairSolution& solution) {
