@@ -120,22 +120,6 @@ void NicheDecider::Stage::decideByMemory(std::uint32_t i) {
   }
 }
 
-bool NicheDecider::Stage::isSamePlace(const MinimumCandidate& l, const MinimumCandidate& r) const {
-  return l.is_measured && r.is_measured &&
-         (l.point_a - r.point_a).squaredNorm() + (l.point_b - r.point_b).squaredNorm() <=
-             tolerance_ * tolerance_;
-}
-
-std::uint32_t NicheDecider::Stage::deepestLike(std::uint32_t i) {
-  const MinimumCandidate& candidate = decider_.judged_[i].candidate;
-  const TriangleIndex piece_a{frame_.pieces_a->piece_of_triangle[candidate.a.value]};
-  const TriangleIndex piece_b{frame_.pieces_b->piece_of_triangle[candidate.b.value]};
-  const std::uint32_t known = decider_.deepest_.find(piece_a, piece_b);
-  if (known != PairTable::kAbsent) return known;
-  decider_.deepest_.insert(piece_a, piece_b, i);
-  return i;
-}
-
 void NicheDecider::Stage::searchInTurn() {
   const std::uint32_t count = decider_.end_ - decider_.next_;
   if (count == 0) return;
