@@ -223,7 +223,6 @@ void findLocalMinima(const detail::PairFrame& frame, const LocalMinimaRequest& r
   if (request.known) {
     parts.listKnown(frame, request, result, limit);
     result.cut = false;
-    result.looked_at_all = true;
     result.finished = !limit.isOver();
     return;
   }
@@ -242,7 +241,6 @@ void findLocalMinima(const detail::PairFrame& frame, const LocalMinimaRequest& r
   const bool all = parts.collector.collect(frame, request, parts.candidates, result.cost, limit);
   result.cost.sweep_seconds = std::chrono::duration<double>(WorkLimit::Clock::now() - start).count();
   result.cost.minima = parts.candidates.size();
-  result.looked_at_all = all;
   limit.allowShare(request.time_shares.all);
   // Proposals count while not everything has been looked at.
   if (!all) detail::appendCandidates(frame, request, request.proposals, parts.candidates);

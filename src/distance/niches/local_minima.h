@@ -102,7 +102,6 @@ struct LocalMinima {
   std::vector<LocalMinimum> niches;  ///< ascending by distance
   bool cut = false;                  ///< there are more than largest_count
   bool finished = true;              ///< false: the limit was reached, niches may be missing
-  bool looked_at_all = true;  ///< false: it ended the search for minima, which the next call goes on with
   static constexpr std::size_t kUndecided = kNoOwner - 1;
   /// For each of LocalMinimaRequest::asked_pairs the niche that it belongs to; kUndecided when the limit was
   /// reached before that was seen, kNoOwner when that is none of
