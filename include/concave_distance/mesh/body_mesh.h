@@ -57,8 +57,8 @@ struct RecentredBody {
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< of the frame of `mesh`, body frame, metres
 };
 
-/// What a sphere or a capsule is a ball swept along, its centre or the segment of its axis, as a thin closed
-/// mesh around it: no point of the mesh is farther than `thickness` from that.
+/// Holds the centre of a sphere or the segment of a capsule's axis, which the solid is a ball swept along, as
+/// a thin closed mesh around it: no point of the mesh is farther than `thickness` from that.
 struct RoundCore {
   std::shared_ptr<const BodyMesh> mesh;  ///< frame of the shape; nullptr: the body is no such solid
   double radius = 0.0;                   ///< metres, of the ball

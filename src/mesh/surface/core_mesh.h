@@ -5,8 +5,8 @@
 
 namespace concave_distance::detail {
 
-/// What a sphere or a capsule is a ball swept along, its centre or the segment of its axis, as a closed
-/// convex mesh around it. No point of the mesh is farther than `thickness` (metres) from that.
+/// A closed convex mesh around what a sphere or a capsule is a ball swept along: its centre, or the segment
+/// of its axis. No point of the mesh is farther than `thickness` (metres) from that.
 struct CoreMesh {
   SurfaceMesh surface;  ///< shape frame
   double thickness;
