@@ -192,8 +192,8 @@ bool BasinBoundary::add(BoundaryPool& pool, const PairFrame& frame, const Bounda
 
 /// Takes out of the batch what may be nearer than the level: it is looked at along its direction, and
 /// measured where that does not suffice.
-std::uint32_t BasinBoundary::look(BoundaryPool& pool, const PairFrame& frame, Batch& batch,
-                                  double level) const {
+std::uint32_t BasinBoundary::look(BoundaryPool& pool, const PairFrame& frame, Batch& batch, double level,
+                                  WorkLimit& limit) const {
   const Bound bound(frame, batch, centres_[batch.fixed_in == Side::A ? 1 : 0]);
   const float needed = bound.needed(level);
   std::uint32_t measured = 0;
@@ -203,6 +203,10 @@ std::uint32_t BasinBoundary::look(BoundaryPool& pool, const PairFrame& frame, Ba
     const Row bounds = bound.of(chunk);
     for (std::uint32_t k = chunk.count; k-- > 0;) {
       if (bounds[k] > needed) continue;
+      if (limit.isOverNow()) {
+        pool.has_unmeasured = true;
+        continue;
+      }
       BoundaryPool::Entry entry = takeFrom(chunk, k);
       const auto enter = [&](const Vector3d& direction, double gap) {
         const Vector3d along =
@@ -267,11 +271,13 @@ void BasinBoundary::rebase(BoundaryPool& pool, const PairFrame& frame) {
   }
 }
 
-std::uint32_t BasinBoundary::takeCrossed(BoundaryPool& pool, const PairFrame& frame, double level) {
+std::uint32_t BasinBoundary::takeCrossed(BoundaryPool& pool, const PairFrame& frame, double level,
+                                         WorkLimit& limit) {
   pool.anew.clear();
   pool.crossed.clear();
+  pool.has_unmeasured = false;
   std::uint32_t measured = 0;
-  for (std::uint32_t i = 0; i < used_; ++i) measured += look(pool, frame, batches_[i], level);
+  for (std::uint32_t i = 0; i < used_; ++i) measured += look(pool, frame, batches_[i], level, limit);
   if (pool.anew.empty()) return measured;
   std::uint32_t rest = 0;
   for (std::uint32_t i = 0; i < used_; ++i) {

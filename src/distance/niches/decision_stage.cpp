@@ -10,8 +10,7 @@ namespace {
 
 /// A search that has visited this many facet pairs may be replaced by cheaper tests.
 constexpr std::size_t kLongSearch = 512;
-/// To keep a basin of more facet pairs takes milliseconds that nothing can end. Where there is a deadline, it
-/// is done in the cycle after the search.
+/// Where there is a deadline, a basin of more facet pairs is kept step by step in the next cycles.
 constexpr std::size_t kLargeBasin = 8192;
 
 }  // namespace
@@ -81,7 +80,6 @@ void NicheDecider::Stage::decideByMemory() {
 }
 
 void NicheDecider::Stage::decideBySearches() {
-  resumeSearch();
   if (limit_.isTimed()) searchInTurn();
   std::size_t niches = 0;
   for (std::uint32_t& i = decider_.next_; i < decider_.end_ && niches < request_.most_niches; ++i) {
@@ -122,22 +120,6 @@ void NicheDecider::Stage::decideByMemory(std::uint32_t i) {
   }
 }
 
-bool NicheDecider::Stage::isSamePlace(const MinimumCandidate& l, const MinimumCandidate& r) const {
-  return l.is_measured && r.is_measured &&
-         (l.point_a - r.point_a).squaredNorm() + (l.point_b - r.point_b).squaredNorm() <=
-             tolerance_ * tolerance_;
-}
-
-std::uint32_t NicheDecider::Stage::deepestLike(std::uint32_t i) {
-  const MinimumCandidate& candidate = decider_.judged_[i].candidate;
-  const TriangleIndex piece_a{frame_.pieces_a->piece_of_triangle[candidate.a.value]};
-  const TriangleIndex piece_b{frame_.pieces_b->piece_of_triangle[candidate.b.value]};
-  const std::uint32_t known = decider_.deepest_.find(piece_a, piece_b);
-  if (known != PairTable::kAbsent) return known;
-  decider_.deepest_.insert(piece_a, piece_b, i);
-  return i;
-}
-
 void NicheDecider::Stage::searchInTurn() {
   const std::uint32_t count = decider_.end_ - decider_.next_;
   if (count == 0) return;
@@ -158,7 +140,7 @@ void NicheDecider::Stage::search(std::uint32_t i) {
     memory_.basin(broken).confirmed = limit_.isOver();
     if (limit_.isOver()) return set(i, Decision::Undecided);
     id = memory_.basin(broken).id;
-    memory_.drop(broken);
+    if (!memory_.drop(broken)) id = 0;
   }
   deepest_ = deepestLike(i);
   // Searches of this pose may have left a path.
@@ -166,6 +148,8 @@ void NicheDecider::Stage::search(std::uint32_t i) {
   ++decider_.counts_.searches;
   BasinSearch& search = decider_.search_;
   const TrianglePair start = frame_.facetPairOf(candidate.a, candidate.b);
+  const bool can_suspend = request_.is_tracked && i < candidate_count_ && candidate.distance > tolerance_ &&
+                           !decider_.suspended_.isThere();
   search.begin(start.a, start.b, levelsOf(candidate.distance));
   BasinSearch::End end = proceed(search, kLongSearch, i);
   if (end == BasinSearch::End::Long) {
@@ -176,9 +160,8 @@ void NicheDecider::Stage::search(std::uint32_t i) {
   switch (end) {
     case BasinSearch::End::Enclosed:
       set(i, Decision::Niche);
-      if (i < candidate_count_ && request_.is_tracked && !decider_.suspended_.isThere() &&
-          limit_.shareOf(1.0) > 0.0 && search.lookedAt() > kLargeBasin) {
-        suspend(start);
+      if (can_suspend && limit_.shareOf(1.0) > 0.0 && search.lookedAt() > kLargeBasin) {
+        decider_.suspended_.suspend(search, start, frame_);
         break;
       }
       if (request_.is_tracked && candidate.distance > tolerance_) {
@@ -203,7 +186,9 @@ void NicheDecider::Stage::search(std::uint32_t i) {
       break;
     default:
       set(i, Decision::Undecided);
-      if (i < candidate_count_ && request_.is_tracked) suspend(start);
+      if (can_suspend && search.lookedAt() >= kLongSearch && !limit_.hasRefusedMemory()) {
+        decider_.suspended_.suspend(search, start, frame_);
+      }
       break;
   }
 }
@@ -212,37 +197,6 @@ BasinSearch::End NicheDecider::Stage::proceed(BasinSearch& search, std::size_t m
   const auto meets = [&](TriangleIndex a, TriangleIndex b) { return isOfEarlier(a, b, i); };
   const auto is_inside = [](TriangleIndex, TriangleIndex) { return false; };
   return search.proceed(frame_, most, meets, is_inside, limit_);
-}
-
-void NicheDecider::Stage::suspend(const TrianglePair& start) {
-  if (decider_.search_.lookedAt() < kLongSearch || limit_.hasRefusedMemory()) return;
-  decider_.suspended_.suspend(decider_.search_, start, frame_);
-}
-
-void NicheDecider::Stage::resumeSearch() {
-  SuspendedSearch& suspended = decider_.suspended_;
-  if (!suspended.isThere()) return;
-  const std::uint32_t i = memory_.candidateIn(suspended.start().a, suspended.start().b);
-  // It may come again where this pose's candidates are not all known.
-  if (i == kNone || i < decider_.next_ || i >= decider_.end_) return;
-  if (decider_.judged_[i].decision != Decision::Open) return suspended.forget();
-  const auto meets = [&](TriangleIndex a, TriangleIndex b) { return isOfEarlier(a, b, i); };
-  const BasinSearch::End end = suspended.proceed(meets, decider_.counts_, limit_);
-  const bool is_kept_later =
-      end == BasinSearch::End::Enclosed && limit_.shareOf(1.0) > 0.0 && suspended.lookedAt() > kLargeBasin;
-  if (end == BasinSearch::End::Cut || is_kept_later) {
-    set(i, Decision::Undecided);
-    if (limit_.hasRefusedMemory()) suspended.forget();
-    return;
-  }
-  const MinimumCandidate& candidate = decider_.judged_[i].candidate;
-  if (end != BasinSearch::End::Enclosed) {
-    suspended.keepPath(memory_, paths_, end == BasinSearch::End::Below, limit_);
-  } else if (candidate.distance > tolerance_) {
-    suspended.keepBasin(memory_, i, candidate, decider_.counts_, limit_);
-  }
-  suspended.forget();
-  decideByMemory(i);
 }
 
 double NicheDecider::Stage::passOf(std::uint32_t i, double highest) const {

@@ -9,7 +9,7 @@ namespace concave_distance::detail {
 
 void NicheDecider::clear() {
   memory_.clear();
-  suspended_.forget();
+  suspended_.clear();
   turn_ = 0;
   searches_are_long_ = false;
 }
@@ -18,6 +18,7 @@ void NicheDecider::begin(const PairFrame& frame, std::vector<MinimumCandidate>& 
                          const Request& request, WorkLimit& limit) {
   memory_.beginCycle(request.is_tracked);
   counts_ = {};
+  counts_.visited_pairs = suspended_.takeVisited();
   judged_.clear();
   deepest_.clear();
   std::sort(candidates.begin(), candidates.end(), [](const MinimumCandidate& l, const MinimumCandidate& r) {

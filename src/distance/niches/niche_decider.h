@@ -53,6 +53,10 @@ class NicheDecider {
 
   void clear();
 
+  /// Goes on with a long search that time has ended, before begin(). Returns false when the limit was reached
+  /// again. A pose may be left out: what proves decisions is kept.
+  bool goOn(WorkLimit& limit) { return suspended_.goOn(memory_, limit); }
+
   /// At a new pose: puts the candidates in ascending order; results stand in the same order, and after them
   /// places that only searches have found.
   void begin(const PairFrame& frame, std::vector<MinimumCandidate>& candidates, const Request& request,
@@ -62,7 +66,7 @@ class NicheDecider {
   /// Judges those that judgeByMemory() has left open.
   void judgeBySearches(const PairFrame& frame, const Request& request, WorkLimit& limit);
   /// Says that time has ended this pose's judging: what proves decisions is kept for the next one even where
-  /// it was not used. A long search goes on there by itself.
+  /// it was not used.
   void endCut() { memory_.endCut(); }
   bool hasJudgedAll() const { return next_ >= candidate_count_; }
   /// Judges all of them, until there are Request::most_niches.
