@@ -9,8 +9,8 @@
 #include "concave_distance/tracking/pair_solution.h"
 #include "concave_distance/tracking/tracker_parameters.h"
 #include "distance_proof.h"
-#include "exact_niches.h"
 #include "niche_archive.h"
+#include "niche_basis.h"
 #include "niche_placement.h"
 #include "niche_search.h"
 #include "round_niches.h"
@@ -66,12 +66,14 @@ class PairStages {
   const PairFrame& frame() const { return *frame_; }
   const DistanceProof& proof() const { return proof_; }
   DistanceProof& proof() { return proof_; }
-  NicheSearch& search() { return search_; }
+  NicheSearch& search() { return meshes_.search; }
   /// Returns the niches that are reported.
-  std::vector<NicheRecord>& records() { return isRound() ? round_.records() : archive_.records(); }
+  std::vector<NicheRecord>& records() { return isRound() ? round_.records() : meshes_.archive.records(); }
   /// Returns the nearest of all minima at a level that proves nothing, or nullptr.
-  const MinimumCandidate* nearestProposed() const { return isExact() ? niches_.nearestProposed() : nullptr; }
-  bool hasAllNiches() const { return niches_.isFinished() || isPairOfShapes(); }
+  const MinimumCandidate* nearestProposed() const {
+    return isExact() ? basis_->niches.nearestProposed() : nullptr;
+  }
+  bool hasAllNiches() const { return basis_->niches.isFinished() || isPairOfShapes(); }
   bool proves() const { return provesDistance(parameters_.accuracy); }
   bool isExact() const { return parameters_.accuracy != AccuracyLevel::Nodes; }
   bool wantsNiches() const { return !proves() || parameters_.niches_wanted; }
@@ -86,8 +88,17 @@ class PairStages {
   void solveNodes(const Passed& passed, PairSolution& solution, WorkLimit& limit);
   void solveExact(const Passed& passed, PairSolution& solution, WorkLimit& limit);
   void solveRound(const Passed& passed, PairSolution& solution, WorkLimit& limit);
-  WitnessPair provenOnMeshes();
-  double cutoffOfMeshes() const;
+  void chooseBasis();
+  void takeCoreParameters();
+  void prepare(NicheBasis& basis);
+  const PairFrame& basisFrame() const { return basis_ == &meshes_ ? *frame_ : *core_frame_; }
+  PairFrame& basisFrame() { return basis_ == &meshes_ ? *frame_ : *core_frame_; }
+  const TrackerParameters& basisParameters() const {
+    return basis_ == &meshes_ ? parameters_ : core_parameters_;
+  }
+  WitnessPair provenOnBasis();
+  double cutoffOfBasis() const;
+  double certainOnBasis() const;
   void propose(SearchCost& cost, WorkLimit& limit);
   detail::ConvexNiches countConvexNiches() const;
   bool searchIsDue(const WorkLimit& limit) const;
@@ -101,12 +112,13 @@ class PairStages {
   Cycle cycle_;
   std::optional<PairFrame> frame_;  ///< of the present cycle
   DistanceProof proof_;
-  NicheSearch search_;
-  ExactNiches niches_;
-  NicheArchive archive_;           ///< of the meshes
-  RoundNiches round_;              ///< of the solids, where there are any
-  std::vector<TrialPoint> known_;  ///< node pairs, of the cycle
-  bool is_search_prepared_ = false;
+  NicheBasis meshes_;
+  std::unique_ptr<NicheBasis> cores_;    ///< of a sphere or a capsule and a mesh; nullptr: not needed yet
+  NicheBasis* basis_ = &meshes_;         ///< that the niches of the last cycle were found on
+  std::optional<PairFrame> core_frame_;  ///< of cores_, in the present cycle
+  TrackerParameters core_parameters_;    ///< with the radii of the cores as margins
+  RoundNiches round_;                    ///< of the solids, where there are any
+  std::vector<TrialPoint> known_;        ///< node pairs, of the cycle
   double distance_before_ = kNotComputed;
   StageClock clock_;
 };
