@@ -7,7 +7,7 @@
 #include "distance/minima/minima_tracker.h"
 #include "distant_components.h"
 #include "local_minima.h"
-#include "meeting_pairs.h"
+#include "overlap_parts.h"
 
 namespace concave_distance::detail {
 
@@ -25,20 +25,28 @@ class CandidateCollector {
   /// @param candidates replaced, in no order, some more than once. @return false when the limit was reached
   bool collect(const PairFrame& frame, const LocalMinimaRequest& request,
                std::vector<MinimumCandidate>& candidates, LocalMinimaCost& cost, WorkLimit& limit);
+  /// Returns where the bodies meet, at the pose of the last collect().
+  const OverlapParts& overlap() const { return overlap_; }
   void clear() {
     front_.clear();
     shell_pairs_.clear();
+    overlap_.clear();
   }
   std::size_t memoryBytes() const {
     return front_.memoryBytes() + shell_pairs_.memoryBytes() + distant_components_.memoryBytes() +
-           open_.capacity() * sizeof(TreeNodePair);
+           overlap_.memoryBytes();
   }
 
  private:
+  bool collectOverlap(const PairFrame& frame, const LocalMinimaRequest& request,
+                      std::vector<MinimumCandidate>& candidates, LocalMinimaCost& cost, WorkLimit& limit);
+  bool collectMinima(const PairFrame& frame, const LocalMinimaRequest& request,
+                     std::vector<MinimumCandidate>& candidates, LocalMinimaCost& cost, WorkLimit& limit);
+
   MinimaTracker front_;
   ConvexShellPairs shell_pairs_;
   DistantComponentBuffers distant_components_;
-  std::vector<TreeNodePair> open_;
+  OverlapParts overlap_;
 };
 
 }  // namespace concave_distance::detail

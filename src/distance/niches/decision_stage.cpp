@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/refill.h"
 #include "distant_components.h"
 #include "mesh/surface/connected_pieces.h"
 
@@ -19,15 +20,55 @@ constexpr std::size_t kLargeBasin = 8192;
 void NicheDecider::Stage::enter(const std::vector<MinimumCandidate>& candidates) {
   were_long_ = decider_.searches_are_long_;
   decider_.searches_are_long_ = false;
+  decider_.part_candidates_.clear();
+  if (request_.overlap != nullptr) {
+    refill(decider_.part_candidates_, request_.overlap->parts().size(), kNone);
+  }
   for (const MinimumCandidate& candidate : candidates) {
-    const auto index = static_cast<std::uint32_t>(decider_.judged_.size());
     decider_.judged_.emplace_back();
     decider_.judged_.back().candidate = candidate;
-    const std::uint32_t number = indexOf(candidate);
-    if (number == kNone) continue;
-    memory_.enterCandidate(number, index);
   }
   candidate_count_ = decider_.candidate_count_ = static_cast<std::uint32_t>(decider_.judged_.size());
+  if (request_.overlap != nullptr) enterParts();
+  for (std::uint32_t i = 0; i < candidate_count_; ++i) {
+    const MinimumCandidate& candidate = decider_.judged_[i].candidate;
+    if (candidate.part != MinimumCandidate::kNoPart) continue;
+    if (const std::uint32_t part = partAround(candidate); part != kNone) {
+      set(i, Decision::Ripple, decider_.part_candidates_[part]);
+      continue;
+    }
+    const std::uint32_t number = indexOf(candidate);
+    if (number != kNone) memory_.enterCandidate(number, i);
+  }
+}
+
+// Paths below a margin may join parts; else each is a niche.
+void NicheDecider::Stage::enterParts() {
+  const OverlapParts& overlap = *request_.overlap;
+  bool is_first = true;
+  for (std::uint32_t i = 0; i < candidate_count_; ++i) {
+    const std::uint32_t part = decider_.judged_[i].candidate.part;
+    if (part == MinimumCandidate::kNoPart) continue;
+    decider_.part_candidates_[part] = i;
+    const OverlapParts::State state = overlap.parts()[part].state;
+    if (state == OverlapParts::State::Unknown) set(i, Decision::Undecided);
+    if (state == OverlapParts::State::InMaterial) set(i, Decision::Unwanted);
+    if (state != OverlapParts::State::Niche) continue;
+    decider_.judged_[i].basin = overlap.parts()[part].id;
+    deepestLike(i);
+    if (is_first || !(request_.rule.margin > 0.0)) set(i, Decision::Niche);
+    is_first = false;
+  }
+  for (std::uint32_t pair = 0; pair < overlap.pairs().size(); ++pair) {
+    const MeetingPair& met = overlap.pairs()[pair];
+    memory_.enterIfKnown(met.a, met.b, decider_.part_candidates_[overlap.partOf(pair)]);
+  }
+}
+
+std::uint32_t NicheDecider::Stage::partAround(const MinimumCandidate& candidate) const {
+  if (request_.overlap == nullptr || candidate.distance > tolerance_) return kNone;
+  const TrianglePair facet_pair = frame_.facetPairOf(candidate.a, candidate.b);
+  return request_.overlap->partIn(facet_pair.a, facet_pair.b);
 }
 
 std::uint32_t NicheDecider::Stage::placeAround(const TrianglePair& pair) {
@@ -166,7 +207,7 @@ void NicheDecider::Stage::search(std::uint32_t i) {
   ++decider_.counts_.searches;
   BasinSearch& search = decider_.search_;
   const TrianglePair start = frame_.facetPairOf(candidate.a, candidate.b);
-  search.begin(start.a, start.b, levelsOf(candidate.distance));
+  if (!beginSearch(i, start)) return set(i, Decision::Undecided);
   const auto meets = [&](TriangleIndex a, TriangleIndex b) { return isOfEarlier(a, b, i); };
   const auto is_inside = [](TriangleIndex, TriangleIndex) { return false; };
   BasinSearch::End end = search.proceed(frame_, kLongSearch, meets, is_inside, limit_);
@@ -200,7 +241,7 @@ void NicheDecider::Stage::search(std::uint32_t i) {
     }
     case BasinSearch::End::Met:
       set(i, Decision::Ripple,
-          memory_.candidateIn(search.facet_pairs()[search.last()].a, search.facet_pairs()[search.last()].b));
+          candidateIn(search.facet_pairs()[search.last()].a, search.facet_pairs()[search.last()].b));
       if (request_.is_tracked) paths_.keepPath(search, number);
       break;
     default:
@@ -208,6 +249,18 @@ void NicheDecider::Stage::search(std::uint32_t i) {
       if (i < candidate_count_ && request_.is_tracked) suspend(start);
       break;
   }
+}
+
+bool NicheDecider::Stage::beginSearch(std::uint32_t i, const TrianglePair& start) {
+  const MinimumCandidate& candidate = decider_.judged_[i].candidate;
+  decider_.search_.begin(start.a, start.b, levelsOf(candidate.distance));
+  if (candidate.part == MinimumCandidate::kNoPart) return true;
+  for (std::uint32_t pair = 0; pair < request_.overlap->pairs().size(); ++pair) {
+    const MeetingPair& met = request_.overlap->pairs()[pair];
+    if (request_.overlap->partOf(pair) != candidate.part) continue;
+    if (!decider_.search_.enterBeyond(met.a, met.b, 0.0, limit_)) return false;
+  }
+  return true;
 }
 
 void NicheDecider::Stage::suspend(const TrianglePair& start) {
@@ -219,7 +272,7 @@ void NicheDecider::Stage::suspend(const TrianglePair& start) {
 void NicheDecider::Stage::resumeSearch() {
   if (!decider_.suspended_) return;
   const TrianglePair start = decider_.suspended_->start;
-  const std::uint32_t i = memory_.candidateIn(start.a, start.b);
+  const std::uint32_t i = candidateIn(start.a, start.b);
   // It may come again where this pose's candidates are not all known.
   if (i == kNone || i < decider_.next_ || i >= decider_.end_) return;
   if (decider_.judged_[i].decision != Decision::Open) {
@@ -264,7 +317,7 @@ void NicheDecider::Stage::keepBasinOf(const PairFrame& earlier, std::uint32_t i)
   // The search has met no earlier candidate where they were then; now one may be inside.
   for (const BasinSearch::FacetPair& facet_pair : decider_.search_.facet_pairs()) {
     memory_.basin(known).first =
-        std::min(memory_.basin(known).first, memory_.candidateIn(facet_pair.a, facet_pair.b));
+        std::min(memory_.basin(known).first, candidateIn(facet_pair.a, facet_pair.b));
   }
 }
 
@@ -348,7 +401,7 @@ bool NicheDecider::Stage::isNearest(std::uint32_t i) {
 bool NicheDecider::Stage::hasPathDown(std::uint32_t i) {
   std::uint32_t into = kNone;
   const auto has_arrived = [&](TriangleIndex a, TriangleIndex b) {
-    into = memory_.candidateIn(a, b);
+    into = candidateIn(a, b);
     return into != kNone && into != i && isEarlier(into, i);
   };
   const MinimumCandidate& from = decider_.judged_[i].candidate;
