@@ -30,7 +30,7 @@ class CandidateCollector {
   void clear() {
     front_.clear();
     shell_pairs_.clear();
-    overlap_.clear();
+    overlap_.findNone();
   }
   std::size_t memoryBytes() const {
     return front_.memoryBytes() + shell_pairs_.memoryBytes() + distant_components_.memoryBytes() +

@@ -271,7 +271,7 @@ void findLocalMinima(const detail::PairFrame& frame, const LocalMinimaRequest& r
 void attributeProposals(const detail::PairFrame& frame, const LocalMinimaRequest& request,
                         LocalMinimaMemory& memory, LocalMinima& result) {
   detail::LocalMinimaParts& parts = memory.parts();
-  const detail::NicheDecider::Request wanted = 
+  const detail::NicheDecider::Request wanted =
       detail::deciderRequest(frame, request, parts.collector.overlap());
   WorkLimit none;
   WorkLimit& limit = request.limit != nullptr ? *request.limit : none;

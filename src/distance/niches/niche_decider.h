@@ -118,11 +118,11 @@ class NicheDecider {
   RefinementWorkspace refinement_;
   std::vector<Judged> judged_;
   std::vector<std::uint32_t> part_candidates_;  ///< by part of the overlap
-  PairTable deepest_{4};               ///< first candidate of each pair of pieces
-  std::uint32_t candidate_count_ = 0;  ///< of judged_, the rest was found
-  std::uint32_t next_ = 0;             ///< of the candidates, the first that is not judged
-  std::uint32_t end_ = 0;              ///< of the candidates looked up in the memory
-  std::uint32_t turn_ = 0;             ///< of the candidates, whose is the next search
+  PairTable deepest_{4};                        ///< first candidate of each pair of pieces
+  std::uint32_t candidate_count_ = 0;           ///< of judged_, the rest was found
+  std::uint32_t next_ = 0;                      ///< of the candidates, the first that is not judged
+  std::uint32_t end_ = 0;                       ///< of the candidates looked up in the memory
+  std::uint32_t turn_ = 0;                      ///< of the candidates, whose is the next search
   bool searches_are_long_ = false;
   bool is_far_ = false;
   Counts counts_;

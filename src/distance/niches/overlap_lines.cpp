@@ -38,7 +38,8 @@ bool OverlapSets::joinInFacets(Side side) {
   if (!limit_->makeRoom(is_hole_, met_->pairs().size())) return false;
   is_hole_.assign(met_->pairs().size(), 1);
   for (const std::uint32_t pair : surface.pairs) {
-    if (met_->pairs()[pair].met_edges[side == Side::A ? 0 : 1] != 0) is_hole_[surface.clusters.find(pair)] = 0;
+    if (met_->pairs()[pair].met_edges[side == Side::A ? 0 : 1] != 0)
+      is_hole_[surface.clusters.find(pair)] = 0;
   }
   for (const MetFacet& met : surface.met) {
     const FacetPoints points = facetPoints(side, met.facet);
@@ -96,9 +97,8 @@ void OverlapSets::joinEnds(Side side, std::optional<NodeIndex> from, NodeIndex t
   if (from && hits_.front().part.first * length > gap && isInside(side, *from)) {
     unite(markInside(side, *from), hits_.front().pair);
   }
-  const Hit& last = *std::max_element(hits_.begin(), hits_.end(), [](const Hit& l, const Hit& r) {
-    return l.part.last < r.part.last;
-  });
+  const Hit& last = *std::max_element(hits_.begin(), hits_.end(),
+                                      [](const Hit& l, const Hit& r) { return l.part.last < r.part.last; });
   if ((1.0 - last.part.last) * length > gap && isInside(side, to)) {
     unite(markInside(side, to), last.pair);
   }

@@ -43,16 +43,12 @@ void OverlapParts::findNone() {
   earlier_.clear();
 }
 
-void OverlapParts::clear() {
-  findNone();
-  parts_made_ = 0;
-}
-
 /// Keeps the last pose's parts, with the pairs of each.
 bool OverlapParts::keepEarlier(WorkLimit& limit) {
   earlier_.clear();
   earlier_pairs_.clear();
-  if (!limit.makeRoom(earlier_, parts_.size()) || !limit.makeRoom(earlier_pairs_, order_.size())) return false;
+  if (!limit.makeRoom(earlier_, parts_.size()) || !limit.makeRoom(earlier_pairs_, order_.size()))
+    return false;
   for (const Part& part : parts_) {
     if (part.id == 0) continue;
     const auto first = static_cast<std::uint32_t>(earlier_pairs_.size());
@@ -128,8 +124,8 @@ bool OverlapParts::choosePlaces(const PairFrame& frame, WorkLimit& limit) {
       part.triangles = triangles;
       part.distance = distance > 4.0 * frame.rounding ? distance : 0.0;
       if (part.state != State::Niche || !frame.hasJoints()) break;
-      const Eigen::Vector3d point = closest.point_a + frame.centre_a;
-      if (!isInsideMaterial(frame, {0.0, point, point, triangles.a, triangles.b})) break;
+      const double tolerance = meetingTolerance(frame);
+      if (isMeetingInSight(frame, {pair.a, pair.b}, triangles, closest, tolerance)) break;
     }
     std::iter_swap(first, place);
   }

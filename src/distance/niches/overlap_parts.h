@@ -22,9 +22,9 @@ class OverlapParts {
   };
   struct Part {
     State state = State::Niche;
-    TrianglePair triangles;  ///< that meet there: the niche's place
-    double distance = 0.0;   ///< metres, of them; above 0 only by rounding
-    std::uint64_t id = 0;    ///< if tracked: the same from pose to pose
+    TrianglePair triangles;   ///< that meet there: the niche's place
+    double distance = 0.0;    ///< metres, of them; above 0 only by rounding
+    std::uint64_t id = 0;     ///< if tracked: the same from pose to pose
     std::uint32_t first = 0;  ///< of its pairs in order_
     std::uint32_t last = 0;
   };
@@ -34,7 +34,6 @@ class OverlapParts {
   bool find(const PairFrame& frame, bool is_tracked, LocalMinimaCost& cost, WorkLimit& limit);
   /// Says that the surfaces are apart at this pose.
   void findNone();
-  void clear();
 
   const std::vector<Part>& parts() const { return parts_; }
   const std::vector<MeetingPair>& pairs() const { return met_.pairs(); }

@@ -83,8 +83,8 @@ void OverlapSets::joinNeighbours(Side side, std::uint32_t pair) {
     const std::uint32_t beside =
         side == Side::A ? met_->find(next.triangle, other) : met_->find(other, next.triangle);
     if (beside == MeetingPairs::kNone || clusters.areJoined(pair, beside)) continue;
-    if (!is_edge && closestOver(*frame_, {side, next.from, next.to, other}).squared_distance >
-                        tolerance_ * tolerance_) {
+    if (!is_edge &&
+        closestOver(*frame_, {side, next.from, next.to, other}).squared_distance > tolerance_ * tolerance_) {
       continue;
     }
     clusters.unite(pair, beside);

@@ -53,9 +53,9 @@ class OverlapSets {
   struct Surface {
     std::vector<std::uint32_t> pairs;  ///< by facet
     std::vector<MetFacet> met;
-    UnionFind clusters;            ///< pairs that hang together within one facet
-    std::vector<Mark> vertices;    ///< value: element, or kNone outside the other body
-    std::vector<Mark> facets;      ///< value: index in `met`, or kNone for one that is wholly inside
+    UnionFind clusters;              ///< pairs that hang together within one facet
+    std::vector<Mark> vertices;      ///< value: element, or kNone outside the other body
+    std::vector<Mark> facets;        ///< value: index in `met`, or kNone for one that is wholly inside
     std::vector<NodeIndex> waiting;  ///< vertices that are inside, to go on from
     std::uint32_t stamp = 0;
     bool may_be_inside = false;  ///< the other body has material
