@@ -24,6 +24,19 @@ Body plate() {
       2.0));
 }
 
+/// A rod 0.1 m thick with a head: from its tip at y = -1 to y = 0.1.
+Body rodWithHead() {
+  return makeBody(test::makeExtrusion({{-0.05, -1.0},
+                                       {0.05, -1.0},
+                                       {0.05, 0.0},
+                                       {0.2, 0.0},
+                                       {0.2, 0.1},
+                                       {-0.2, 0.1},
+                                       {-0.2, 0.0},
+                                       {-0.05, 0.0}},
+                                      0.1));
+}
+
 std::vector<std::uint64_t> idsAtZero(const PairSolution& solution) {
   std::vector<std::uint64_t> ids;
   for (const TrackedNiche& niche : solution.niches) {
@@ -50,7 +63,7 @@ void move(PairTracker& tracker, const Vector3d& from, const Vector3d& to, int st
 }
 
 TEST(OverlapIdentity, OfARodThatGoesThroughAPlateAndBackIsKept) {
-  const Body rod = makeBody(test::makeLShape(1.0, 0.1, 0.1));
+  const Body rod = rodWithHead();
   for (const int steps : {6, 40, 400}) {
     SCOPED_TRACE(std::to_string(steps) + " steps");
     PairTracker tracker("rod", plate(), rod, {});
@@ -62,8 +75,8 @@ TEST(OverlapIdentity, OfARodThatGoesThroughAPlateAndBackIsKept) {
       EXPECT_EQ(ids.front(), id) << "step " << k;
     };
     // From where the end is in the plate to where it is far beyond, and back.
-    move(tracker, {0.0, 0.05, 0.0}, {0.0, -0.5, 0.0}, steps, expect_same);
-    move(tracker, {0.0, -0.5, 0.0}, {0.0, 0.05, 0.0}, steps, expect_same);
+    move(tracker, {0.0, 1.05, 0.0}, {0.0, 0.5, 0.0}, steps, expect_same);
+    move(tracker, {0.0, 0.5, 0.0}, {0.0, 1.05, 0.0}, steps, expect_same);
   }
 }
 
@@ -91,10 +104,9 @@ TEST(OverlapIdentity, OfTheOldestIsKeptWherePartsBecomeOne) {
 }
 
 TEST(OverlapIdentity, OfANicheGoesOnWhereTheBodiesBeginToOverlap) {
-  const Body rod = makeBody(test::makeLShape(1.0, 0.1, 0.1));
-  PairTracker tracker("rod", plate(), rod, {});
+  PairTracker tracker("rod", plate(), rodWithHead(), {});
   std::uint64_t nearest = 0;
-  move(tracker, {0.0, 0.3, 0.0}, {0.0, -0.3, 0.0}, 60, [&](int k, const PairSolution& solution) {
+  move(tracker, {0.0, 1.2, 0.0}, {0.0, 0.5, 0.0}, 60, [&](int k, const PairSolution& solution) {
     ASSERT_FALSE(solution.niches.empty());
     if (k == 0) nearest = solution.niches.front().id;
     EXPECT_EQ(solution.niches.front().id, nearest) << "step " << k;

@@ -44,7 +44,7 @@ class OverlapSets {
     std::uint32_t first;
     std::uint32_t last;
   };
-  /// What was found out at this pose, if the stamp is this pose's.
+  /// A mark holds what was found out at a pose, that of its stamp.
   struct Mark {
     std::uint32_t stamp = 0;
     std::uint32_t value = 0;
