@@ -85,6 +85,7 @@ void ExactNiches::admit(const PairFrame& frame, const TrackerParameters& paramet
   const double all = time_share - std::min(kMostForKnown, limit.shareOf(for_known));
   const bool is_behind = cycle.catches_up && !found_.looked_at_all;
   request_.time_shares = {(is_behind ? kShareToCatchUp : kShareOfMinima) * all, kShareOfFloods * all, all};
+  request_.finishes_searches = cycle.catches_up;
   request_.given = nullptr;
   if (!looks_for_all) {
     followed_.insert(followed_.end(), request_.proposals.begin(), request_.proposals.end());

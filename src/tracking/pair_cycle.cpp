@@ -6,13 +6,13 @@
 #include <limits>
 #include <utility>
 
-#include "distance/bound/round_certificate.h"
-#include "distance/bound/solid_overlap.h"
+#include "distance/kernels/pair_motion.h"
 #include "distance/niches/niche_properties.h"
 #include "mesh/trees/normal_cone_tree.h"
 #include "node_niches.h"
 #include "padded_solution.h"
-#include "relative_motion.h"
+#include "pair_answer.h"
+#include "rigid_pose.h"
 #include "search_stage.h"
 
 namespace concave_distance {
@@ -45,9 +45,9 @@ PairCycle::PairCycle(std::string name, std::shared_ptr<const BodyMesh> a, std::s
       parameters_(parameters),
       largest_used_id_(largest_used_id),
       pose_error_(pose_error),
-      search_(*a_, *b_) {
+      meshes_(a_, b_) {
   parameters_.validate(name_);
-  archive_.beginIdsAfter(largest_used_id);
+  meshes_.archive.beginIdsAfter(largest_used_id);
   round_.beginIdsAfter(largest_used_id);
 }
 
@@ -130,7 +130,7 @@ void PairCycle::putOffNiches(PairSolution& solution) {
     if (l.niche.distance != r.niche.distance) return l.niche.distance < r.niche.distance;
     return l.niche.id < r.niche.id;
   });
-  listNiches(carried_, solution);
+  listNiches(parameters_, carried_, solution);
   reportAlone(solution);
   const Moment last_niches = last_niches_;
   end(solution);
@@ -141,7 +141,7 @@ void PairCycle::putOffNiches(PairSolution& solution) {
 // The answer of the first half is in the frame that A was modelled in, and is given again.
 void PairCycle::beginSecondHalf(PairSolution& solution) {
   const StageTimes stages = solution.stages;
-  clear(solution);
+  clearAnswer(parameters_, cycle_, isWarm(), solution);
   solution.stages = stages;
   stage_clock_.start();
 }
@@ -151,7 +151,7 @@ bool PairCycle::begin(const Eigen::Isometry3d& pose, double time, PairSolution& 
   limit_.setTaken(memoryBytes());
   is_tracked_ = is_tracked;
   is_proof_cut_ = false;
-  clear(solution);
+  clearAnswer(parameters_, cycle_, isWarm(), solution);
   solution.a_from_b = pose;
   const std::optional<Eigen::Isometry3d> rigid = rigidPose(pose);
   if (!rigid) {
@@ -177,7 +177,8 @@ void PairCycle::end(PairSolution& solution) {
 
 PairCycle::Passed PairCycle::passed(const Moment& before, const Moment& now) const {
   if (!before.known) return {std::numeric_limits<double>::infinity(), 0.0};
-  return {largestDisplacement(b_->bounds(), before.pose, now.pose), std::max(0.0, now.time - before.time)};
+  return {detail::PairMotion(before.pose, now.pose).largestIn(b_->bounds()),
+          std::max(0.0, now.time - before.time)};
 }
 
 void PairCycle::solve(const Eigen::Isometry3d& pose, PairSolution& solution) {
@@ -209,61 +210,102 @@ void PairCycle::prove(PairSolution& solution) {
 
 void PairCycle::solveNodes(const Passed& passed, PairSolution& solution) {
   limit_.allowShare(kShareOfNiches);
-  search_.begin(*a_, *b_, parameters_);
-  followNodePairs(*frame_, search_, passed.displacement, passed.elapsed, archive_, solution.cost, limit_);
+  NicheSearch& search = meshes_.search;
+  NicheArchive& archive = meshes_.archive;
+  search.begin(*a_, *b_, parameters_);
+  followNodePairs(*frame_, search, passed.displacement, passed.elapsed, archive, solution.cost, limit_);
   stage_clock_.lap(SolveStage::Follow, solution.stages);
   known_.clear();
-  for (const NicheRecord& record : archive_.records()) known_.push_back(record.niche.node_pair);
-  const std::vector<TrialPoint>& found = search_.propose(
+  for (const NicheRecord& record : archive.records()) known_.push_back(record.niche.node_pair);
+  const std::vector<TrialPoint>& found = search.propose(
       *frame_, parameters_, known_, {name_, cycle_, isWarm(), false, isWarm()}, solution.cost, limit_);
   stage_clock_.lap(SolveStage::Propose, solution.stages);
-  admitNodePairs(*frame_, parameters_, search_, found, isWarm(), cycle_, archive_, solution);
+  admitNodePairs(*frame_, parameters_, search, found, isWarm(), cycle_, archive, solution);
   stage_clock_.lap(SolveStage::Admit, solution.stages);
 }
 
+// A sphere or a capsule apart from the other body has the niches of its core, with the radius as a margin: a
+// point or a segment in place of thousands of facets, and no facet is mistaken for the solid.
+void PairCycle::chooseBasis() {
+  const bool is_apart = proves() && !proof_.isPenetrating() && !proof_.isSwallowed();
+  NicheBasis* wanted = &meshes_;
+  if (is_apart && isRound() && !parameters_.keep_through_material) {
+    if (cores_ == nullptr) {
+      cores_ = NicheBasis::ofCores(a_, b_);
+      takeCoreParameters();
+    }
+    if (cores_ != nullptr) wanted = cores_.get();
+  }
+  if (wanted != &meshes_) core_frame_.emplace(*cores_->a, *cores_->b, cores_->poseOf(now_.pose));
+  if (wanted == basis_) return;
+  wanted->reset();
+  round_.forgetMeshNiches();
+  basis_ = wanted;
+}
+
+void PairCycle::takeCoreParameters() {
+  if (cores_ == nullptr) return;
+  core_parameters_ = parameters_;
+  core_parameters_.margin_a += cores_->margin_a;
+  core_parameters_.margin_b += cores_->margin_b;
+}
+
 void PairCycle::solveExact(const Passed& passed, PairSolution& solution) {
-  if (niches_.isUnchanged(passed.displacement)) return archive_.keepUnchanged(passed.elapsed);
-  frame_->openFacets();
-  frame_->pose_error = pose_error_;
+  chooseBasis();
+  NicheBasis& basis = *basis_;
+  if (basis.niches.isUnchanged(passed.displacement)) return basis.archive.keepUnchanged(passed.elapsed);
+  PairFrame& frame = basisFrame();
+  frame.openFacets();
+  frame.pose_error = pose_error_;
   const ConvexNiches convex = countConvexNiches();
   const bool are_counted = convex != ConvexNiches::Unknown;
-  if (!is_search_prepared_ && !are_counted && is_tracked_ && parameters_.search_share > 0.0) prepare();
+  if (!basis.is_search_prepared && !are_counted && is_tracked_ && parameters_.search_share > 0.0)
+    prepare(basis);
   limit_.allowShare(kShareOfSearch);
-  if (!proves()) niches_.follow(*frame_, archive_, limit_);
+  if (!proves()) basis.niches.follow(frame, basis.archive, limit_);
   stage_clock_.lap(SolveStage::Follow, solution.stages);
   if (!are_counted && searchIsDue()) propose(solution.cost);
   if (proves() && (!proof_.isPenetrating() || convex == ConvexNiches::OnlyTheNearest)) {
-    niches_.proposeProven(*frame_, provenOnMeshes(), proof_.isPenetrating());
+    basis.niches.proposeProven(frame, provenOnBasis(), proof_.isPenetrating());
   }
   stage_clock_.lap(SolveStage::Propose, solution.stages);
-  niches_.admit(
-      *frame_, parameters_,
-      {cycle_, last_niches_.pose, passed.elapsed, is_tracked_, cutoffOfMeshes(), convex, cycle_ends_first_},
-      certainDistance(), kShareOfNiches, archive_, solution, limit_);
-  search_.earn(niches_.evolved(), niches_.work(), parameters_.search_share);
+  basis.niches.admit(frame, basisParameters(),
+                     {cycle_, basis.poseOf(last_niches_.pose), passed.elapsed, is_tracked_, cutoffOfBasis(),
+                      convex, cycle_ends_first_},
+                     certainOnBasis(), kShareOfNiches, basis.archive, solution, limit_);
+  basis.search.earn(basis.niches.evolved(), basis.niches.work(), parameters_.search_share);
   stage_clock_.lap(SolveStage::Admit, solution.stages);
-  solution.stages[SolveStage::Sweep] = niches_.cost().sweep_seconds;
-  solution.stages[SolveStage::Admit] -= niches_.cost().sweep_seconds;
+  solution.stages[SolveStage::Sweep] = basis.niches.cost().sweep_seconds;
+  solution.stages[SolveStage::Admit] -= basis.niches.cost().sweep_seconds;
 }
 
 // Two round solids are convex: their one niche needs no search.
 void PairCycle::solveRound(const Passed& passed, PairSolution& solution) {
   const bool is_unchanged = passed.displacement == 0.0 && !round_.records().empty();
   if (!isPairOfShapes()) solveExact(passed, solution);
-  if (is_unchanged && (isPairOfShapes() || niches_.isUnchanged(passed.displacement)))
+  if (is_unchanged && (isPairOfShapes() || basis_->niches.isUnchanged(passed.displacement)))
     return round_.keepUnchanged(passed.elapsed);
-  round_.update(*frame_, archive_, {cycle_, isWarm() ? passed.displacement : 0.0, passed.elapsed},
+  round_.update(*frame_, basis_->archive, {cycle_, isWarm() ? passed.displacement : 0.0, passed.elapsed},
                 solution.events);
 }
 
 // The certificate's is between the exact surfaces.
-WitnessPair PairCycle::provenOnMeshes() {
-  const WitnessPair& witness = proof_.certificate().witness;
-  return isRound() ? niches_.refine(*frame_, witness) : witness;
+WitnessPair PairCycle::provenOnBasis() {
+  WitnessPair witness = proof_.certificate().witness;
+  if (!isRound()) return witness;
+  if (basis_->a != a_) witness.triangle_a = TriangleIndex{0};
+  if (basis_->b != b_) witness.triangle_b = TriangleIndex{0};
+  return basis_->niches.refine(basisFrame(), witness);
 }
 
-double PairCycle::cutoffOfMeshes() const {
-  return parameters_.cutoff + parameters_.margin() + (isRound() ? RoundNiches::meshExcess(*frame_) : 0.0);
+double PairCycle::cutoffOfBasis() const {
+  const double excess = basis_ == &meshes_ && isRound() ? RoundNiches::meshExcess(*frame_) : 0.0;
+  return parameters_.cutoff + basisParameters().margin() + basis_->thickness + excess;
+}
+
+double PairCycle::certainOnBasis() const {
+  const double certain = certainDistance();
+  return certain > 0.0 ? std::max(0.0, certain + basis_->margin() - basis_->thickness) : certain;
 }
 
 // Niches that none can see, and those of far sides, are not counted; nor what a proof has not reached.
@@ -271,9 +313,10 @@ detail::ConvexNiches PairCycle::countConvexNiches() const {
   const bool is_proven = proves() && (proof_.certificate().status == CertificateStatus::Proven ||
                                       (proof_.isPenetrating() && !isRound()));
   if (!is_proven || parameters_.hidden || parameters_.keep_through_material) return ConvexNiches::Unknown;
-  const NicheRule rule{parameters_.least_prominence, parameters_.prominence_limit, parameters_.margin()};
+  const NicheRule rule{parameters_.least_prominence, parameters_.prominence_limit,
+                       basisParameters().margin()};
   return detail::countConvexNiches(
-      *frame_, rule, certainDistance(),
+      basisFrame(), rule, certainOnBasis(),
       proof_.certificate().status != CertificateStatus::Penetrating && proof_.isSwallowed());
 }
 
@@ -281,12 +324,12 @@ detail::ConvexNiches PairCycle::countConvexNiches() const {
 // may have to end early.
 bool PairCycle::searchIsDue() const {
   if (!proves()) return true;
-  if (certainDistance() > cutoffOfMeshes()) return false;  // there is no niche to find
+  if (certainOnBasis() > cutoffOfBasis()) return false;  // there is no niche to find
   return parameters_.search_share > 0.0 && (is_tracked_ || limit_.isTimed());
 }
 
 void PairCycle::propose(SearchCost& cost) {
-  const SearchStage stage{*frame_, parameters_, archive_, search_, niches_, known_};
+  const SearchStage stage{basisFrame(), parameters_, basis_->archive, basis_->search, basis_->niches, known_};
   if (proves()) {
     proposeAsHelper(stage, {name_, cycle_, isWarm(), true, is_tracked_}, cost, limit_);
   } else {
@@ -305,13 +348,15 @@ void PairCycle::report(PairSolution& solution) {
     reportAlone(solution);
     return reportCompleteness(solution);
   }
-  listNiches(niches(), solution);
+  listNiches(parameters_, niches(), solution);
   if (proves()) {
     proof_.report(solution);
   } else {
-    reportNearest(solution);
+    answerByNearest(*frame_, niches(), isExact() ? basis_->niches.nearestProposed() : nullptr, isRound(),
+                    solution, limit_);
   }
-  reportMiss(since_niches_.displacement, solution);
+  if (isWarm())
+    solution.search_miss = proves() ? hasMissedNiche(solution.niches) : hasMissedNearest(solution);
   if (!solution.niches.empty() && solution.niches.front().distance == solution.distance) {
     solution.normal_in_a = solution.niches.front().normal_in_a;
     solution.closing_speed = solution.niches.front().closing_speed;
@@ -329,135 +374,52 @@ void PairCycle::reportAlone(PairSolution& solution) {
   if (elapsed > 0.0) solution.closing_speed = (distance_before_ - proof_.certificate().distance) / elapsed;
 }
 
-void PairCycle::listNiches(std::vector<NicheRecord>& records, PairSolution& solution) {
-  if (!records.empty()) {
-    records.front().niche.prominence = std::numeric_limits<double>::infinity();
-  }
-  for (NicheRecord& record : records) {
-    if (record.niche.distance > parameters_.cutoff + parameters_.margin()) {
-      ++solution.niches_beyond_cutoff;
-      continue;
-    }
-    if (solution.niches.size() == parameters_.largest_niche_count) {
-      solution.niches_cut = true;
-      continue;
-    }
-    if (&record != &records.front() && std::isinf(record.niche.prominence)) {
-      record.niche.prominence = kNotComputed;  // it was the deepest
-    }
-    if (!record.reported) {
-      solution.events.push_back({NicheEvent::Kind::Birth, record.niche.id, 0});
-      record.reported = true;
-    }
-    solution.niches.push_back(record.niche);
-  }
-}
-
-void PairCycle::reportNearest(PairSolution& solution) {
-  const std::vector<NicheRecord>& records = niches();
-  if (!records.empty()) {
-    const TrackedNiche& nearest = records.front().niche;
-    solution.distance = nearest.distance;
-    solution.point_a_in_a = nearest.point_a_in_a;
-    solution.point_b_in_a = nearest.point_b_in_a;
-    if (nearest.distance == 0.0) {
-      solution.status = SolveStatus::Penetrating;
-      solution.meeting_triangles = TrianglePair{nearest.witness.triangle_a, nearest.witness.triangle_b};
-      return;
-    }
-  }
-  const bool overlap = isRound() ? isRoundContained(*a_, *b_, frame_->a_from_b)
-                                 : isContained(*a_, *b_, frame_->a_from_b, limit_).value_or(false);
-  const MinimumCandidate* known = niches_.nearestProposed();
-  const bool is_known_alone = records.empty() && limit_.hasRefused();
-  if (isExact() && known != nullptr && (overlap || is_known_alone)) {
-    // Not a niche, but still a bound of the distance: through material, or there was no time to find one.
-    const WitnessPair witness = isRound()
-                                    ? refineRoundWitness(*a_, *b_, frame_->a_from_b, {known->a, known->b})
-                                    : frame_->witnessOf(*known);
-    solution.distance = isRound() ? std::sqrt(witness.squared_distance) : known->distance;
-    solution.point_a_in_a = witness.point_a_in_a;
-    solution.point_b_in_a = witness.point_b_in_a;
-  }
-  if (overlap) {
-    solution.status = SolveStatus::Penetrating;
-    solution.surface_distance = solution.distance;
-    solution.distance = 0.0;
-  }
-}
-
-// At level `certified`: what was neither known nor proposed.
-void PairCycle::reportMiss(double displacement, PairSolution& solution) const {
-  if (!isWarm()) return;
-  if (proves()) {
-    solution.search_miss =
-        std::any_of(solution.niches.begin(), solution.niches.end(), [](const TrackedNiche& niche) {
-          return niche.origin == NicheOrigin::FromCones || niche.origin == NicheOrigin::Proven;
-        });
-    return;
-  }
+// Its distance is less than the motion since allows the nearest one to have become.
+bool PairCycle::hasMissedNearest(const PairSolution& solution) const {
   const double rounding = kPlateauTolerance * frame_->diameters();
-  solution.search_miss = solution.distance < last_distance_ - displacement - rounding;
+  return solution.distance < last_distance_ - since_niches_.displacement - rounding;
 }
 
 // After the limit the answer is incomplete, even with a finished proof. Where the cycle ended before the
 // pair's own budget, a proof that is finished is an answer in time.
 void PairCycle::reportCompleteness(PairSolution& solution) const {
   const bool is_cut = is_proof_cut_ || limit_.hasRefused();
-  const bool all = (niches_.isFinished() || isPairOfShapes()) && !is_cut;
+  const bool all = (basis_->niches.isFinished() || isPairOfShapes()) && !is_cut;
   solution.niches_complete = proves() && parameters_.niches_wanted && all && !solution.niches_cut;
   if (!limit_.hasRefused() || solution.status == SolveStatus::Penetrating) return;
   if (cycle_ends_first_ && proves() && !limit_.hasRefusedMemory()) return;
   solution.status = limit_.hasRefusedTime() ? SolveStatus::BudgetExhausted : SolveStatus::MemoryExhausted;
 }
 
-void PairCycle::clear(PairSolution& solution) const {
-  solution.status = SolveStatus::Ok;
-  solution.accuracy = parameters_.accuracy;
-  solution.distance = solution.lower_bound = solution.surface_distance = kNotComputed;
-  solution.signed_distance = kNotComputed;
-  solution.point_a_in_a.setConstant(kNotComputed);
-  solution.point_b_in_a.setConstant(kNotComputed);
-  solution.normal_in_a.setConstant(kNotComputed);
-  solution.closing_speed = kNotComputed;
-  solution.meeting_triangles.reset();
-  solution.niches.clear();
-  solution.events.clear();
-  solution.niches_cut = solution.niches_complete = solution.search_miss = false;
-  solution.niches_beyond_cutoff = 0;
-  solution.cycle = cycle_;
-  solution.warm = isWarm();
-  solution.seed = parameters_.seed;
-  solution.cost = {};
-  solution.proof_cost = {};
-  solution.stages = {};
-}
-
 void PairCycle::prepare() {
   if (!wantsNiches()) return;
-  search_.prepare(*a_, *b_, parameters_);
-  is_search_prepared_ = true;
-  archive_.reserve(kUsualNiches);
+  prepare(meshes_);
+  if (cores_ != nullptr) prepare(*cores_);
+}
+
+void PairCycle::prepare(NicheBasis& basis) {
+  basis.search.prepare(*basis.a, *basis.b, parameters_);
+  basis.is_search_prepared = true;
+  basis.archive.reserve(kUsualNiches);
   known_.reserve(kUsualNiches);
   const NormalSides sides = parameters_.keep_through_material ? NormalSides::Both : NormalSides::Outside;
-  for (const BodyMesh* body : {a_.get(), b_.get()}) {
+  for (const BodyMesh* body : {basis.a.get(), basis.b.get()}) {
     if (isExact()) body->prepareNiches(sides);
   }
 }
 
 void PairCycle::reset() {
-  archive_.clear();
+  meshes_.reset();
+  if (cores_ != nullptr) cores_->reset();
   round_.clear();
   proof_.clear();
-  niches_.clear();
-  search_.restart();
   last_cycle_.known = last_niches_.known = false;
   was_cut_ = true;
 }
 
 void PairCycle::restart() {
   reset();
-  archive_.beginIdsAfter(largest_used_id_);
+  meshes_.archive.beginIdsAfter(largest_used_id_);
   round_.beginIdsAfter(largest_used_id_);
   cycle_ = 0;
   limit_ = {};
@@ -470,14 +432,18 @@ void PairCycle::setParameters(const TrackerParameters& parameters) {
   parameters_ = parameters;
   if (changes_niches || (wantsNiches() && !last_niches_.known)) reset();
   proof_.renew();
-  niches_.renew();
-  search_.forgetParameters();
+  takeCoreParameters();
+  for (NicheBasis* basis : {&meshes_, cores_.get()}) {
+    if (basis == nullptr) continue;
+    basis->niches.renew();
+    basis->search.forgetParameters();
+  }
 }
 
 std::size_t PairCycle::memoryBytes() const {
-  return sizeof(PairCycle) + archive_.records().capacity() * sizeof(NicheRecord) +
-         known_.capacity() * sizeof(TrialPoint) + proof_.memoryBytes() + niches_.memoryBytes() +
-         search_.memoryBytes() + round_.memoryBytes() + carried_.capacity() * sizeof(NicheRecord);
+  return sizeof(PairCycle) + meshes_.memoryBytes() + (cores_ != nullptr ? cores_->memoryBytes() : 0) +
+         known_.capacity() * sizeof(TrialPoint) + proof_.memoryBytes() + round_.memoryBytes() +
+         carried_.capacity() * sizeof(NicheRecord);
 }
 
 }  // namespace concave_distance

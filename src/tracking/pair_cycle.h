@@ -9,8 +9,8 @@
 #include "concave_distance/tracking/pair_solution.h"
 #include "concave_distance/tracking/tracker_parameters.h"
 #include "distance_proof.h"
-#include "exact_niches.h"
 #include "niche_archive.h"
+#include "niche_basis.h"
 #include "niche_placement.h"
 #include "niche_search.h"
 #include "round_niches.h"
@@ -40,7 +40,7 @@ class PairCycle {
   void restart();
   void setParameters(const TrackerParameters& parameters);
 
-  NicheSearch& search() { return search_; }
+  NicheSearch& search() { return meshes_.search; }
   const std::string& name() const { return name_; }
   const TrackerParameters& parameters() const { return parameters_; }
   std::size_t memoryBytes() const;
@@ -65,8 +65,17 @@ class PairCycle {
   void solveNodes(const Passed& passed, PairSolution& solution);
   void solveExact(const Passed& passed, PairSolution& solution);
   void solveRound(const Passed& passed, PairSolution& solution);
-  WitnessPair provenOnMeshes();
-  double cutoffOfMeshes() const;
+  void chooseBasis();
+  void takeCoreParameters();
+  void prepare(NicheBasis& basis);
+  const PairFrame& basisFrame() const { return basis_ == &meshes_ ? *frame_ : *core_frame_; }
+  PairFrame& basisFrame() { return basis_ == &meshes_ ? *frame_ : *core_frame_; }
+  const TrackerParameters& basisParameters() const {
+    return basis_ == &meshes_ ? parameters_ : core_parameters_;
+  }
+  WitnessPair provenOnBasis();
+  double cutoffOfBasis() const;
+  double certainOnBasis() const;
   void prove(PairSolution& solution);
   void propose(SearchCost& cost);
   detail::ConvexNiches countConvexNiches() const;
@@ -74,11 +83,8 @@ class PairCycle {
   double certainDistance() const;
   void report(PairSolution& solution);
   void reportAlone(PairSolution& solution);
-  void reportNearest(PairSolution& solution);
-  void reportMiss(double displacement, PairSolution& solution) const;
+  bool hasMissedNearest(const PairSolution& solution) const;
   void reportCompleteness(PairSolution& solution) const;
-  void listNiches(std::vector<NicheRecord>& records, PairSolution& solution);
-  void clear(PairSolution& solution) const;
   bool proves() const { return provesDistance(parameters_.accuracy); }
   bool isExact() const { return parameters_.accuracy != AccuracyLevel::Nodes; }
   bool isWarm() const { return wantsNiches() ? last_niches_.known : last_cycle_.known; }
@@ -87,7 +93,7 @@ class PairCycle {
   bool isRound() const { return isExact() && (a_->shape() != nullptr || b_->shape() != nullptr); }
   bool isPairOfShapes() const { return isExact() && a_->shape() != nullptr && b_->shape() != nullptr; }
   /// That are reported.
-  std::vector<NicheRecord>& niches() { return isRound() ? round_.records() : archive_.records(); }
+  std::vector<NicheRecord>& niches() { return isRound() ? round_.records() : meshes_.archive.records(); }
 
   std::string name_;
   std::shared_ptr<const BodyMesh> a_;
@@ -97,14 +103,15 @@ class PairCycle {
   std::uint64_t largest_used_id_;
   double pose_error_;
   DistanceProof proof_;
-  NicheSearch search_;
-  ExactNiches niches_;
-  NicheArchive archive_;           ///< of the meshes
-  RoundNiches round_;              ///< of the solids, where there are any
-  std::vector<TrialPoint> known_;  ///< node pairs, of the cycle
+  NicheBasis meshes_;
+  std::unique_ptr<NicheBasis> cores_;    ///< of a sphere or a capsule and a mesh; nullptr: not needed yet
+  NicheBasis* basis_ = &meshes_;         ///< that the niches of the last cycle were found on
+  std::optional<PairFrame> core_frame_;  ///< of cores_, in the present cycle
+  TrackerParameters core_parameters_;    ///< with the radii of the cores as margins
+  RoundNiches round_;                    ///< of the solids, where there are any
+  std::vector<TrialPoint> known_;        ///< node pairs, of the cycle
   std::uint64_t cycle_ = 0;
-  bool is_tracked_ = true;  ///< of the present cycle
-  bool is_search_prepared_ = false;
+  bool is_tracked_ = true;            ///< of the present cycle
   bool cycle_ends_first_ = false;     ///< before the pair's own time budget
   bool is_proof_cut_ = false;         ///< in the first half of the present cycle
   bool was_cut_ = true;               ///< by the end of a cycle, when it last had time; or it never had

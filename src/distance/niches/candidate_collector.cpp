@@ -7,6 +7,17 @@
 
 namespace concave_distance::detail {
 
+namespace {
+
+/// Less work than this is always done to renew a front, in comparisons.
+constexpr std::size_t kLeastRenewed = 8192;
+
+NormalSides sidesOf(const LocalMinimaRequest& request) {
+  return request.through_material ? NormalSides::Both : NormalSides::Outside;
+}
+
+}  // namespace
+
 bool isCandidate(const PairFrame& frame, const LocalMinimaRequest& request,
                  const MinimumCandidate& candidate) {
   return candidate.distance <= request.cutoff + frame.rounding &&
@@ -71,7 +82,7 @@ bool CandidateCollector::collectMinima(const PairFrame& frame, const LocalMinima
     case ConvexShellPairs::Outcome::Unknown:
       break;
   }
-  const NormalSides sides = request.through_material ? NormalSides::Both : NormalSides::Outside;
+  const NormalSides sides = sidesOf(request);
   if (request.is_tracked) {
     const bool done = front_.collect(frame, sides, request.cutoff, candidates, limit);
     cost.node_pairs += front_.counts().groups;
@@ -80,6 +91,21 @@ bool CandidateCollector::collectMinima(const PairFrame& frame, const LocalMinima
   }
   collectConeCandidates(frame, sides, request.cutoff, candidates, cost, limit);
   return !limit.isOver();
+}
+
+void CandidateCollector::renew(const PairFrame& frame, const LocalMinimaRequest& request,
+                               LocalMinimaCost& cost, const WorkLimit& limit) {
+  if (!request.is_tracked || !front_.hasOutgrown()) return;
+  WorkLimit own = limit;  // what it refuses is no part of the answer
+  const std::size_t most = std::max(kLeastRenewed, front_.counts().comparisons());
+  next_candidates_.clear();
+  const bool is_whole =
+      next_front_.collect(frame, sidesOf(request), request.cutoff, next_candidates_, own, most);
+  cost.node_pairs += next_front_.counts().groups;
+  cost.feature_pairs += next_front_.counts().features;
+  if (!is_whole) return;
+  std::swap(front_, next_front_);
+  next_front_.clear();
 }
 
 }  // namespace concave_distance::detail

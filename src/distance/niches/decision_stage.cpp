@@ -10,8 +10,7 @@ namespace {
 
 /// A search that has visited this many facet pairs may be replaced by cheaper tests.
 constexpr std::size_t kLongSearch = 512;
-/// To keep a basin of more facet pairs takes milliseconds that nothing can end. Where there is a deadline, it
-/// is done in the cycle after the search.
+/// Where there is a deadline, a basin of more facet pairs is kept step by step in the next cycles.
 constexpr std::size_t kLargeBasin = 8192;
 
 }  // namespace
@@ -33,7 +32,6 @@ void NicheDecider::Stage::decideByMemory() {
 }
 
 void NicheDecider::Stage::decideBySearches() {
-  resumeSearch();
   if (limit_.isTimed()) searchInTurn();
   std::size_t niches = 0;
   for (std::uint32_t& i = decider_.next_; i < decider_.end_ && niches < request_.most_niches; ++i) {
@@ -74,22 +72,6 @@ void NicheDecider::Stage::decideByMemory(std::uint32_t i) {
   }
 }
 
-bool NicheDecider::Stage::isSamePlace(const MinimumCandidate& l, const MinimumCandidate& r) const {
-  return l.is_measured && r.is_measured &&
-         (l.point_a - r.point_a).squaredNorm() + (l.point_b - r.point_b).squaredNorm() <=
-             tolerance_ * tolerance_;
-}
-
-std::uint32_t NicheDecider::Stage::deepestLike(std::uint32_t i) {
-  const MinimumCandidate& candidate = decider_.judged_[i].candidate;
-  const TriangleIndex piece_a{frame_.pieces_a->piece_of_triangle[candidate.a.value]};
-  const TriangleIndex piece_b{frame_.pieces_b->piece_of_triangle[candidate.b.value]};
-  const std::uint32_t known = decider_.deepest_.find(piece_a, piece_b);
-  if (known != PairTable::kAbsent) return known;
-  decider_.deepest_.insert(piece_a, piece_b, i);
-  return i;
-}
-
 void NicheDecider::Stage::searchInTurn() {
   const std::uint32_t count = decider_.end_ - decider_.next_;
   if (count == 0) return;
@@ -110,7 +92,7 @@ void NicheDecider::Stage::search(std::uint32_t i) {
     memory_.basin(broken).confirmed = limit_.isOver();
     if (limit_.isOver()) return set(i, Decision::Undecided);
     id = memory_.basin(broken).id;
-    memory_.drop(broken);
+    if (!memory_.drop(broken)) id = 0;
   }
   deepest_ = deepestLike(i);
   // Searches of this pose may have left a path.
@@ -118,21 +100,20 @@ void NicheDecider::Stage::search(std::uint32_t i) {
   ++decider_.counts_.searches;
   BasinSearch& search = decider_.search_;
   const TrianglePair start = frame_.facetPairOf(candidate.a, candidate.b);
+  const bool can_suspend = request_.is_tracked && i < candidate_count_ && candidate.distance > tolerance_ &&
+                           !decider_.suspended_.isThere();
   if (!beginSearch(i, start)) return set(i, Decision::Undecided);
-  const auto meets = [&](TriangleIndex a, TriangleIndex b) { return isOfEarlier(a, b, i); };
-  const auto is_inside = [](TriangleIndex, TriangleIndex) { return false; };
-  BasinSearch::End end = search.proceed(frame_, kLongSearch, meets, is_inside, limit_);
+  BasinSearch::End end = proceed(search, kLongSearch, i);
   if (end == BasinSearch::End::Long) {
     if (settlesLong(i)) return;
-    end = search.proceed(frame_, std::numeric_limits<std::size_t>::max(), meets, is_inside, limit_);
+    end = proceed(search, std::numeric_limits<std::size_t>::max(), i);
   }
   decider_.counts_.visited_pairs += static_cast<std::uint32_t>(search.lookedAt());
   switch (end) {
     case BasinSearch::End::Enclosed:
       set(i, Decision::Niche);
-      if (i < candidate_count_ && request_.is_tracked && !decider_.suspended_ && limit_.shareOf(1.0) > 0.0 &&
-          search.lookedAt() > kLargeBasin) {
-        suspend(start);
+      if (can_suspend && limit_.shareOf(1.0) > 0.0 && search.lookedAt() > kLargeBasin) {
+        decider_.suspended_.suspend(search, start, frame_);
         break;
       }
       if (request_.is_tracked && candidate.distance > tolerance_) {
@@ -157,7 +138,9 @@ void NicheDecider::Stage::search(std::uint32_t i) {
       break;
     default:
       set(i, Decision::Undecided);
-      if (i < candidate_count_ && request_.is_tracked) suspend(start);
+      if (can_suspend && search.lookedAt() >= kLongSearch && !limit_.hasRefusedMemory()) {
+        decider_.suspended_.suspend(search, start, frame_);
+      }
       break;
   }
 }
@@ -174,62 +157,10 @@ bool NicheDecider::Stage::beginSearch(std::uint32_t i, const TrianglePair& start
   return true;
 }
 
-void NicheDecider::Stage::suspend(const TrianglePair& start) {
-  if (decider_.search_.lookedAt() < kLongSearch || limit_.hasRefusedMemory()) return;
-  std::swap(decider_.search_, decider_.suspended_search_);
-  decider_.suspended_.emplace(Suspended{start, frame_});
-}
-
-void NicheDecider::Stage::resumeSearch() {
-  if (!decider_.suspended_) return;
-  const TrianglePair start = decider_.suspended_->start;
-  const std::uint32_t i = candidateIn(start.a, start.b);
-  // It may come again where this pose's candidates are not all known.
-  if (i == kNone || i < decider_.next_ || i >= decider_.end_) return;
-  if (decider_.judged_[i].decision != Decision::Open) {
-    decider_.suspended_.reset();
-    return;
-  }
-  const PairFrame earlier = decider_.suspended_->frame;
-  BasinSearch& search = decider_.suspended_search_;
-  const std::size_t before = search.lookedAt();
+BasinSearch::End NicheDecider::Stage::proceed(BasinSearch& search, std::size_t most, std::uint32_t i) const {
   const auto meets = [&](TriangleIndex a, TriangleIndex b) { return isOfEarlier(a, b, i); };
   const auto is_inside = [](TriangleIndex, TriangleIndex) { return false; };
-  const BasinSearch::End end =
-      search.proceed(earlier, std::numeric_limits<std::size_t>::max(), meets, is_inside, limit_);
-  decider_.counts_.visited_pairs += static_cast<std::uint32_t>(search.lookedAt() - before);
-  const bool is_kept_later = end == BasinSearch::End::Enclosed && limit_.shareOf(1.0) > 0.0 &&
-                             search.lookedAt() > std::max(before, kLargeBasin);
-  if (end == BasinSearch::End::Cut || is_kept_later) {
-    set(i, Decision::Undecided);
-    if (limit_.hasRefusedMemory()) decider_.suspended_.reset();
-    return;
-  }
-  decider_.suspended_.reset();
-  std::swap(decider_.search_, search);
-  if (end == BasinSearch::End::Enclosed) {
-    keepBasinOf(earlier, i);
-  } else {
-    const BasinSearch::FacetPair& last = decider_.search_.facet_pairs()[decider_.search_.last()];
-    const std::uint32_t number = memory_.facetPairOf(start.a, start.b, limit_);
-    if (number == kNone) return;
-    paths_.keepPath(decider_.search_, number);
-    if (end == BasinSearch::End::Below) paths_.keepLow({last.a, last.b});
-  }
-  decideByMemory(i);
-}
-
-void NicheDecider::Stage::keepBasinOf(const PairFrame& earlier, std::uint32_t i) {
-  const MinimumCandidate& candidate = decider_.judged_[i].candidate;
-  DecisionBasins basins(memory_, decider_.search_, earlier, decider_.counts_, limit_);
-  if (!(candidate.distance > tolerance_)) return;
-  const std::uint32_t known = memory_.basinWith(basins.keep(0, i, {candidate.a, candidate.b}));
-  if (known == kNone) return;
-  // The search has met no earlier candidate where they were then; now one may be inside.
-  for (const BasinSearch::FacetPair& facet_pair : decider_.search_.facet_pairs()) {
-    memory_.basin(known).first =
-        std::min(memory_.basin(known).first, candidateIn(facet_pair.a, facet_pair.b));
-  }
+  return search.proceed(frame_, most, meets, is_inside, limit_);
 }
 
 double NicheDecider::Stage::passOf(std::uint32_t i, double highest) const {
@@ -240,10 +171,7 @@ double NicheDecider::Stage::passOf(std::uint32_t i, double highest) const {
   search.begin(start.a, start.b,
                {candidate.distance - tolerance_, candidate.distance + tolerance_, highest + tolerance_},
                BasinSearch::Purpose::MeasurePass);
-  const auto meets = [&](TriangleIndex a, TriangleIndex b) { return isOfEarlier(a, b, i); };
-  const auto is_inside = [](TriangleIndex, TriangleIndex) { return false; };
-  const BasinSearch::End end =
-      search.proceed(frame_, std::numeric_limits<std::size_t>::max(), meets, is_inside, limit_);
+  const BasinSearch::End end = proceed(search, std::numeric_limits<std::size_t>::max(), i);
   decider_.counts_.visited_pairs += static_cast<std::uint32_t>(search.lookedAt());
   if (end == BasinSearch::End::Cut) return std::numeric_limits<double>::quiet_NaN();
   if (end == BasinSearch::End::Enclosed) return std::numeric_limits<double>::infinity();

@@ -109,10 +109,22 @@ class NicheDecider::Stage {
   }
 
   /// True for one minimum that two shells of a body have, because they lie on each other.
-  bool isSamePlace(const MinimumCandidate& l, const MinimumCandidate& r) const;
+  bool isSamePlace(const MinimumCandidate& l, const MinimumCandidate& r) const {
+    return l.is_measured && r.is_measured &&
+           (l.point_a - r.point_a).squaredNorm() + (l.point_b - r.point_b).squaredNorm() <=
+               tolerance_ * tolerance_;
+  }
 
   /// Returns the deepest candidate of the components that i lies on.
-  std::uint32_t deepestLike(std::uint32_t i);
+  std::uint32_t deepestLike(std::uint32_t i) {
+    const MinimumCandidate& candidate = decider_.judged_[i].candidate;
+    const TriangleIndex piece_a{frame_.pieces_a->piece_of_triangle[candidate.a.value]};
+    const TriangleIndex piece_b{frame_.pieces_b->piece_of_triangle[candidate.b.value]};
+    const std::uint32_t known = decider_.deepest_.find(piece_a, piece_b);
+    if (known != PairTable::kAbsent) return known;
+    decider_.deepest_.insert(piece_a, piece_b, i);
+    return i;
+  }
 
   /// Follows kept links; true when they lead below i or to an earlier candidate and stay below i's level.
   bool followsDown(std::uint32_t i, std::uint32_t number);
@@ -132,13 +144,8 @@ class NicheDecider::Stage {
   /// Begins a search at all facet pairs where a candidate is. Returns false without memory.
   bool beginSearch(std::uint32_t i, const TrianglePair& start);
 
-  /// Keeps a long search that time has ended.
-  void suspend(const TrianglePair& start);
-  /// Goes on with the search that was suspended, if there is one for an open candidate, and when it has ended
-  /// keeps what it found and decides by that.
-  void resumeSearch();
-  /// Keeps the basin that a search of an earlier pose has found enclosed.
-  void keepBasinOf(const PairFrame& earlier, std::uint32_t i);
+  /// Goes on with a search for candidate i at most so far, ending where it meets a place of an earlier one.
+  BasinSearch::End proceed(BasinSearch& search, std::size_t most, std::uint32_t i) const;
 
   /// Descends from the place below a ripple to the minimum under it.
   void descend(std::uint32_t i);

@@ -14,6 +14,8 @@ namespace {
 
 constexpr std::size_t kNoOwner = LocalMinima::kNoOwner;
 constexpr std::size_t kUndecided = LocalMinima::kUndecided;
+/// Of the time, for a search that was suspended, where the other niches go on beside it.
+constexpr double kShareOfSuspended = 0.3;
 
 }  // namespace
 
@@ -249,6 +251,13 @@ void findLocalMinima(const detail::PairFrame& frame, const LocalMinimaRequest& r
   parts.described.clear();
   parts.owners.clear();
   parts.proposed.clear();
+  limit.allowShare(request.finishes_searches ? request.time_shares.all : detail::kShareOfSuspended);
+  const bool has_finished = parts.decider.goOn(limit);
+  if (!has_finished && request.finishes_searches) {
+    result.owners.assign(request.asked_pairs.size(), LocalMinima::kUndecided);
+    result.cut = result.finished = false;
+    return;
+  }
   const auto start = WorkLimit::Clock::now();
   limit.allowShare(request.time_shares.search);
   const bool all = parts.collector.collect(frame, request, parts.candidates, result.cost, limit);
@@ -266,6 +275,7 @@ void findLocalMinima(const detail::PairFrame& frame, const LocalMinimaRequest& r
   result.cost.searched_pairs = parts.decider.counts().visited_pairs;
   if ((!all || !decided) && !limit.hasRefusedMemory()) parts.decider.endCut();
   result.finished = all && decided && !limit.isOver() && limit.hasRefusedMemory() == refused_before;
+  if (result.finished) parts.collector.renew(frame, request, result.cost, limit);
 }
 
 void attributeProposals(const detail::PairFrame& frame, const LocalMinimaRequest& request,

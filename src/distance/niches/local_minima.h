@@ -57,6 +57,8 @@ struct LocalMinimaRequest {
     double all = 1.0;
   };
   TimeShares time_shares;
+  /// A long search that time has ended is finished before anything else; until it is, nothing is decided.
+  bool finishes_searches = false;
   /// When it is reached, the niches decided so far are the result (LocalMinima::finished); nullptr: none.
   WorkLimit* limit = nullptr;
 };
