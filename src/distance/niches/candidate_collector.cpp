@@ -37,15 +37,43 @@ bool CandidateCollector::collect(const PairFrame& frame, const LocalMinimaReques
   if (request.given != nullptr) {
     if (!limit.makeRoom(candidates, request.given->size())) return false;
     appendCandidates(frame, request, *request.given, candidates);
+    const bool is_met = std::any_of(candidates.begin(), candidates.end(), [&](const MinimumCandidate& c) {
+      return c.distance <= meetingTolerance(frame);
+    });
+    if (is_met) return collectOverlap(frame, request, candidates, cost, limit);
+    overlap_.findNone();
     return true;
   }
+  const bool may_meet = !(request.certain_distance > 4.0 * frame.touchingDistance());
   if (isFar(frame, request.rule) &&
       collectFarCandidates(frame, request.cutoff, distant_components_, candidates, limit)) {
+    overlap_.findNone();
     return true;
   }
-  if (!(request.certain_distance > 4.0 * frame.touchingDistance())) {
-    collectMeetingPairs(frame, open_, candidates, cost, limit);
+  if (!may_meet) overlap_.findNone();
+  const bool has_overlap = !may_meet || collectOverlap(frame, request, candidates, cost, limit);
+  return collectMinima(frame, request, candidates, cost, limit) && has_overlap;
+}
+
+bool CandidateCollector::collectOverlap(const PairFrame& frame, const LocalMinimaRequest& request,
+                                        std::vector<MinimumCandidate>& candidates, LocalMinimaCost& cost,
+                                        WorkLimit& limit) {
+  const bool all = overlap_.find(frame, request.is_tracked, cost, limit);
+  const std::vector<OverlapParts::Part>& parts = overlap_.parts();
+  if (!limit.makeRoom(candidates, parts.size())) {
+    overlap_.findNone();
+    return false;
   }
+  for (std::uint32_t k = 0; k < parts.size(); ++k) {
+    candidates.push_back(candidateOn(parts[k].triangles.a, parts[k].triangles.b, parts[k].distance));
+    candidates.back().part = k;
+  }
+  return all;
+}
+
+bool CandidateCollector::collectMinima(const PairFrame& frame, const LocalMinimaRequest& request,
+                                       std::vector<MinimumCandidate>& candidates, LocalMinimaCost& cost,
+                                       WorkLimit& limit) {
   switch (shell_pairs_.collect(frame, request, candidates, limit)) {
     case ConvexShellPairs::Outcome::Complete:
       return true;

@@ -70,6 +70,11 @@ class DecisionCache {
   FacetPair& facet_pair(std::uint32_t number) { return facet_pairs_[number]; }
   const FacetPair& facet_pair(std::uint32_t number) const { return facet_pairs_[number]; }
 
+  /// Puts a candidate into a facet pair, where that is known, and its basins.
+  void enterIfKnown(TriangleIndex a, TriangleIndex b, std::uint32_t candidate) {
+    const std::uint32_t number = table_.find(a, b);
+    if (number != PairTable::kAbsent) enterCandidate(number, candidate);
+  }
   /// Puts a candidate into a facet pair and its basins, unless an earlier one is there.
   void enterCandidate(std::uint32_t number, std::uint32_t candidate);
   /// Returns the candidate of this cycle in a facet pair, or kNone.

@@ -15,54 +15,6 @@ constexpr std::size_t kLargeBasin = 8192;
 
 }  // namespace
 
-void NicheDecider::Stage::enter(const std::vector<MinimumCandidate>& candidates) {
-  were_long_ = decider_.searches_are_long_;
-  decider_.searches_are_long_ = false;
-  for (const MinimumCandidate& candidate : candidates) {
-    const auto index = static_cast<std::uint32_t>(decider_.judged_.size());
-    decider_.judged_.emplace_back();
-    decider_.judged_.back().candidate = candidate;
-    const std::uint32_t number = indexOf(candidate);
-    if (number == kNone) continue;
-    memory_.enterCandidate(number, index);
-  }
-  candidate_count_ = decider_.candidate_count_ = static_cast<std::uint32_t>(decider_.judged_.size());
-}
-
-std::uint32_t NicheDecider::Stage::placeAround(const TrianglePair& pair) {
-  const std::uint32_t in_facet_pair = candidateAround(pair.a, pair.b);
-  if (in_facet_pair != kNone) return in_facet_pair;
-  return enterPlace(
-      refineWitness(frame_.a, frame_.b, frame_.a_from_b, pair.a, pair.b, decider_.refinement_).witness);
-}
-
-std::uint32_t NicheDecider::Stage::enterPlace(const WitnessPair& minimum) {
-  if (!frame_.areOnSurface(minimum.triangle_a, minimum.triangle_b)) return kNone;
-  const MinimumCandidate candidate = frame_.candidateOf(minimum);
-  const std::uint32_t in_facet_pair = candidateAround(minimum.triangle_a, minimum.triangle_b);
-  // Given candidates may lie a little above the minimum of their facet pair.
-  if (in_facet_pair != kNone &&
-      decider_.judged_[in_facet_pair].candidate.distance <= candidate.distance + tolerance_) {
-    return in_facet_pair;
-  }
-  const auto begin = decider_.judged_.begin();
-  const auto found = begin + candidate_count_;
-  const auto is_there = [&](const Judged& other) { return isSamePlace(other.candidate, candidate); };
-  const auto is_nearer = [](const Judged& judged, double distance) {
-    return judged.candidate.distance < distance;
-  };
-  const auto nearest = std::lower_bound(begin, found, candidate.distance - tolerance_, is_nearer);
-  const auto farthest = std::lower_bound(nearest, found, candidate.distance + 2.0 * tolerance_, is_nearer);
-  auto known = std::find_if(nearest, farthest, is_there);
-  if (known == farthest) known = std::find_if(found, decider_.judged_.end(), is_there);
-  if (known != decider_.judged_.end()) return static_cast<std::uint32_t>(known - begin);
-  if (!request_.through_material && isThroughMaterial(minimum)) return kNone;
-  decider_.judged_.emplace_back();
-  decider_.judged_.back().candidate = candidate;
-  decider_.judged_.back().was_found = true;
-  return static_cast<std::uint32_t>(decider_.judged_.size() - 1);
-}
-
 void NicheDecider::Stage::decideFar() {
   for (std::uint32_t i = 0; i < decider_.judged_.size(); ++i) {
     if (decider_.judged_[i].decision != Decision::Open) continue;
@@ -150,7 +102,7 @@ void NicheDecider::Stage::search(std::uint32_t i) {
   const TrianglePair start = frame_.facetPairOf(candidate.a, candidate.b);
   const bool can_suspend = request_.is_tracked && i < candidate_count_ && candidate.distance > tolerance_ &&
                            !decider_.suspended_.isThere();
-  search.begin(start.a, start.b, levelsOf(candidate.distance));
+  if (!beginSearch(i, start)) return set(i, Decision::Undecided);
   BasinSearch::End end = proceed(search, kLongSearch, i);
   if (end == BasinSearch::End::Long) {
     if (settlesLong(i)) return;
@@ -181,7 +133,7 @@ void NicheDecider::Stage::search(std::uint32_t i) {
     }
     case BasinSearch::End::Met:
       set(i, Decision::Ripple,
-          memory_.candidateIn(search.facet_pairs()[search.last()].a, search.facet_pairs()[search.last()].b));
+          candidateIn(search.facet_pairs()[search.last()].a, search.facet_pairs()[search.last()].b));
       if (request_.is_tracked) paths_.keepPath(search, number);
       break;
     default:
@@ -191,6 +143,18 @@ void NicheDecider::Stage::search(std::uint32_t i) {
       }
       break;
   }
+}
+
+bool NicheDecider::Stage::beginSearch(std::uint32_t i, const TrianglePair& start) {
+  const MinimumCandidate& candidate = decider_.judged_[i].candidate;
+  decider_.search_.begin(start.a, start.b, levelsOf(candidate.distance));
+  if (candidate.part == MinimumCandidate::kNoPart) return true;
+  for (std::uint32_t pair = 0; pair < request_.overlap->pairs().size(); ++pair) {
+    const MeetingPair& met = request_.overlap->pairs()[pair];
+    if (request_.overlap->partOf(pair) != candidate.part) continue;
+    if (!decider_.search_.enterBeyond(met.a, met.b, 0.0, limit_)) return false;
+  }
+  return true;
 }
 
 BasinSearch::End NicheDecider::Stage::proceed(BasinSearch& search, std::size_t most, std::uint32_t i) const {
@@ -276,7 +240,7 @@ bool NicheDecider::Stage::isNearest(std::uint32_t i) {
 bool NicheDecider::Stage::hasPathDown(std::uint32_t i) {
   std::uint32_t into = kNone;
   const auto has_arrived = [&](TriangleIndex a, TriangleIndex b) {
-    into = memory_.candidateIn(a, b);
+    into = candidateIn(a, b);
     return into != kNone && into != i && isEarlier(into, i);
   };
   const MinimumCandidate& from = decider_.judged_[i].candidate;

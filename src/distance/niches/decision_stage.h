@@ -16,9 +16,10 @@ class NicheDecider::Stage {
         limit_(limit),
         paths_(memory_, frame, decider.counts_, limit),
         basins_(memory_, decider.search_, frame, decider.counts_, limit),
-        tolerance_(2.0 * frame.touchingDistance()) {}
+        tolerance_(meetingTolerance(frame)) {}
 
-  /// Enters the candidates into their facet pairs and the deepest of each kept basin into the basin.
+  /// Enters the candidates into their facet pairs and the deepest of each kept basin into the basin. Decides
+  /// those of parts of the overlap.
   void enter(const std::vector<MinimumCandidate>& candidates);
 
   /// Goes on with what enter() of an earlier stage at this pose has left.
@@ -77,10 +78,23 @@ class NicheDecider::Stage {
     return memory_.facetPairOf(facet_pair.a, facet_pair.b, limit_);
   }
 
+  /// Enters the candidates of the overlap's parts into all facet pairs of each.
+  void enterParts();
+  /// Returns the part of the overlap of which a candidate is, though it does not stand for it; or kNone.
+  std::uint32_t partAround(const MinimumCandidate& candidate) const;
+
+  /// Returns the candidate in a facet pair, that of its part where the bodies meet there; or kNone.
+  std::uint32_t candidateIn(TriangleIndex a, TriangleIndex b) const {
+    if (request_.overlap != nullptr) {
+      const std::uint32_t part = request_.overlap->partIn(a, b);
+      if (part != OverlapParts::kNone) return decider_.part_candidates_[part];
+    }
+    return memory_.candidateIn(a, b);
+  }
   /// Returns the candidate in the facet pair of a triangle pair, or kNone.
   std::uint32_t candidateAround(TriangleIndex a, TriangleIndex b) const {
     const TrianglePair facet_pair = frame_.facetPairOf(a, b);
-    return memory_.candidateIn(facet_pair.a, facet_pair.b);
+    return candidateIn(facet_pair.a, facet_pair.b);
   }
 
   void set(std::uint32_t i, Decision decision, std::uint32_t into = kNone) {
@@ -121,12 +135,14 @@ class NicheDecider::Stage {
 
   /// True when a facet pair holds a minimum that i would belong to.
   bool isOfEarlier(TriangleIndex a, TriangleIndex b, std::uint32_t i) const {
-    const std::uint32_t other = memory_.candidateIn(a, b);
+    const std::uint32_t other = candidateIn(a, b);
     return other != kNone && other != i && isEarlier(other, i);
   }
 
   /// Decides a candidate by a search of its basin and keeps what proves the decision.
   void search(std::uint32_t i);
+  /// Begins a search at all facet pairs where a candidate is. Returns false without memory.
+  bool beginSearch(std::uint32_t i, const TrianglePair& start);
 
   /// Goes on with a search for candidate i at most so far, ending where it meets a place of an earlier one.
   BasinSearch::End proceed(BasinSearch& search, std::size_t most, std::uint32_t i) const;

@@ -114,8 +114,8 @@ struct LocalMinima {
 /// least prominence: none is missed, none invented, up to the error of the triangle kernel in coordinates of
 /// the bodies' size (minima whose pass is higher by less than that are one). How and why: doc/proofs.md.
 /// Bodies about 2 / (least prominence) times their size apart have one niche for each pair of
-/// shells, found without looking through their features. Where the bodies meet, every connected set of
-/// meeting points is one niche of distance 0. Outward niches of open shells include those marked Unknown.
+/// shells, found without looking through their features. Where the bodies meet, every connected part
+/// of their overlap is one niche of distance 0. Outward niches of open shells include those marked Unknown.
 /// Uses the bodies' normalCones(). Never throws.
 LocalMinima findLocalMinima(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b,
                             const LocalMinimaRequest& request);

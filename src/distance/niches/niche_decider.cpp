@@ -84,6 +84,11 @@ std::uint32_t NicheDecider::nicheWith(std::uint64_t basin) const {
   return index != kNone && memory_.basin(index).confirmed ? nicheOf(memory_.basin(index).first) : kNone;
 }
 
+std::uint32_t NicheDecider::nicheOfPart(std::uint32_t part) const {
+  const std::uint32_t end = endOf(part_candidates_[part]);
+  return judged_[end].decision == Decision::Undecided ? kUndecided : nicheOf(end);
+}
+
 std::uint32_t NicheDecider::endOf(std::uint32_t index) const {
   while (index != kNone && judged_[index].decision == Decision::Ripple) index = judged_[index].into;
   return index;
@@ -95,7 +100,8 @@ std::uint32_t NicheDecider::nicheOf(std::uint32_t of) const {
 }
 
 std::size_t NicheDecider::memoryBytes() const {
-  return memory_.memoryBytes() + judged_.capacity() * sizeof(Judged) + search_.memoryBytes() +
+  return memory_.memoryBytes() + judged_.capacity() * sizeof(Judged) +
+         part_candidates_.capacity() * sizeof(std::uint32_t) + search_.memoryBytes() +
          suspended_.memoryBytes() + path_.memoryBytes();
 }
 

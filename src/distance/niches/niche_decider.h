@@ -11,6 +11,7 @@
 #include "decision_counts.h"
 #include "niche_properties.h"
 #include "niche_rule.h"
+#include "overlap_parts.h"
 #include "suspended_search.h"
 
 namespace concave_distance::detail {
@@ -46,6 +47,8 @@ class NicheDecider {
     bool through_material = false;
     bool is_tracked = true;         ///< what proves a decision is kept for the next pose
     double certain_distance = 0.0;  ///< metres, as LocalMinimaRequest::certain_distance
+    /// Where the bodies meet at this pose, with a candidate for each part; nullptr: nowhere.
+    const OverlapParts* overlap = nullptr;
     /// Returns whether a candidate that is no known ripple is wanted; empty: all are. The occluder is kept
     /// with the candidate's triangle pair.
     std::function<bool(const MinimumCandidate&, Occluder&)> is_wanted;
@@ -80,6 +83,8 @@ class NicheDecider {
                        WorkLimit& limit);
   /// Returns the niche with this basin, or kNone when it is no longer kept.
   std::uint32_t nicheWith(std::uint64_t basin) const;
+  /// Returns the niche that a part of the overlap is, as locate() does.
+  std::uint32_t nicheOfPart(std::uint32_t part) const;
 
   /// At the pose of the last begin(): the lowest level (metres) from which a path leads from a niche to a
   /// place as near; infinite when that is above `highest`, NaN when the limit was reached.
@@ -102,11 +107,12 @@ class NicheDecider {
   BoundedPathBuffers path_;
   RefinementWorkspace refinement_;
   std::vector<Judged> judged_;
-  PairTable deepest_{4};               ///< first candidate of each pair of pieces
-  std::uint32_t candidate_count_ = 0;  ///< of judged_, the rest was found
-  std::uint32_t next_ = 0;             ///< of the candidates, the first that is not judged
-  std::uint32_t end_ = 0;              ///< of the candidates looked up in the memory
-  std::uint32_t turn_ = 0;             ///< of the candidates, whose is the next search
+  std::vector<std::uint32_t> part_candidates_;  ///< by part of the overlap
+  PairTable deepest_{4};                        ///< first candidate of each pair of pieces
+  std::uint32_t candidate_count_ = 0;           ///< of judged_, the rest was found
+  std::uint32_t next_ = 0;                      ///< of the candidates, the first that is not judged
+  std::uint32_t end_ = 0;                       ///< of the candidates looked up in the memory
+  std::uint32_t turn_ = 0;                      ///< of the candidates, whose is the next search
   bool searches_are_long_ = false;
   bool is_far_ = false;
   Counts counts_;

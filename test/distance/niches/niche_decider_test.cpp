@@ -34,8 +34,12 @@ std::vector<MinimumCandidate> candidatesAt(const PairFrame& scene) {
   WorkLimit none;
   std::vector<MinimumCandidate> candidates;
   LocalMinimaCost cost;
-  std::vector<TreeNodePair> open;
-  collectMeetingPairs(scene, open, candidates, cost, none);
+  MeetingPairs met;
+  EXPECT_TRUE(met.collect(scene, cost, none));
+  for (const MeetingPair& pair : met.pairs()) {
+    candidates.push_back(
+        candidateOn(pair.a, pair.b, pair.distance > 4.0 * scene.rounding ? pair.distance : 0.0));
+  }
   front.collect(scene, NormalSides::Outside, kInfinity, candidates, none);
   return candidates;
 }
