@@ -8,7 +8,7 @@
 #include "base/constants.h"
 #include "body_box.h"
 #include "concave_distance/scene/broad_phase.h"
-#include "tracking/relative_motion.h"
+#include "tracking/rigid_pose.h"
 
 namespace concave_distance {
 namespace {
