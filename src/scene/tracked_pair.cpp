@@ -52,8 +52,9 @@ bool TrackedPair::locate(const PairInput& next, const std::atomic<bool>* stop) {
   }
   beyond_since_.reset();
   prepare(stop);
-  const bool same_input = input.fixed ? solved_input_.a_from_b.matrix() == input.a_from_b.matrix()
-                                      : solved_input_.time == input.time;
+  // An edit may place a body anew at the same time.
+  const bool same_input = (input.fixed || solved_input_.time == input.time) &&
+                          solved_input_.a_from_b.matrix() == input.a_from_b.matrix();
   repeated = was_solved && same_input && !must_solve_;
   return !repeated;
 }
