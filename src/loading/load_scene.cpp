@@ -319,8 +319,8 @@ Scene loadRobotScene(const std::string& urdf, const std::string& where, const Sc
 
 std::vector<LoadedBody> loadBodies(const std::vector<BodyDescription>& descriptions,
                                    const std::string& base_folder, const PackageLocator& package_locator,
-                                   const std::shared_ptr<BodyPool>& pool, const PreparationCachePointer& cache,
-                                   const SceneLimits& limits) {
+                                   const std::shared_ptr<BodyPool>& pool,
+                                   const PreparationCachePointer& cache, const SceneLimits& limits) {
   std::vector<detail::BodySource> sources;
   for (const BodyDescription& description : descriptions) {
     sources.push_back(detail::sourceOf(description, base_folder));

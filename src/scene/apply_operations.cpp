@@ -35,7 +35,8 @@ void setMargin(Scene& scene, const SceneOperation& operation) {
   for (const std::size_t index : bodies) {
     const SceneBody& body = scene.bodies[index];
     // A robot's margin is for all its links, also those that are smaller.
-    if (!body.is_robot_link && body.mesh) requireMargin("body '" + body.name + "'", operation.margin, *body.mesh);
+    if (!body.is_robot_link && body.mesh)
+      requireMargin("body '" + body.name + "'", operation.margin, *body.mesh);
   }
   for (const std::size_t index : bodies) scene.bodies.edit(index).margin = operation.margin;
 }
@@ -99,7 +100,8 @@ AppliedOperations applyOperations(Scene& scene, const std::vector<SceneOperation
       apply(scene, operation, frames, applied.remarks);
     } catch (const Error& error) {
       applied.faults.push_back({i, operation.body, error});
-      if (operation.kind == OperationKind::Add && !scene.findBody(operation.body)) failed.insert(operation.body);
+      if (operation.kind == OperationKind::Add && !scene.findBody(operation.body))
+        failed.insert(operation.body);
     }
     if (applied.remarks.size() > remarks) applied.remarks.back().operation = i;
   }

@@ -12,14 +12,14 @@
 
 namespace concave_distance::detail {
 
-/// What is wrong with an operation of a batch.
+/// Says what is wrong with one operation of a batch.
 struct OperationFault {
   std::size_t operation;  ///< its place
   std::string body;       ///< SceneOperation::body
   Error error;
 };
 
-/// What is to be said of an operation that was applied.
+/// Says what a caller should know of an operation that was applied.
 struct OperationRemark {
   std::size_t operation;             ///< its place
   AddedPairs added;                  ///< Add: without the names of pairs

@@ -60,13 +60,15 @@ void carryAlong(Scene& scene, std::size_t parent) {
 
 void requireNoCycle(const Scene& scene, std::size_t body, std::size_t parent) {
   const std::string& name = scene.bodies[body].name;
-  if (body == parent) throw Error(whereOf(name), "it would be attached to itself", "name another body or frame");
+  if (body == parent)
+    throw Error(whereOf(name), "it would be attached to itself", "name another body or frame");
   for (std::optional<std::size_t> at = parent; at && scene.bodies[*at].attachment;) {
     at = findBySerial(scene, scene.bodies[*at].attachment->parent_serial);
     if (at == body) {
-      throw Error(whereOf(name),
-                  "'" + scene.bodies[parent].name + "' is attached to it already, perhaps through others: a cycle",
-                  "detach '" + scene.bodies[parent].name + "' first");
+      throw Error(
+          whereOf(name),
+          "'" + scene.bodies[parent].name + "' is attached to it already, perhaps through others: a cycle",
+          "detach '" + scene.bodies[parent].name + "' first");
     }
   }
 }
@@ -86,7 +88,8 @@ Parent parentNamed(const Scene& scene, std::size_t body, const std::string& name
     return {parent.frame, parent.frame_from_body, parent.serial, parent.carrier};
   }
   if (scene.groups.count(name) != 0) {
-    throw Error(whereOf(scene.bodies[body].name), "'" + name + "' is a group", "attach it to one body or frame");
+    throw Error(whereOf(scene.bodies[body].name), "'" + name + "' is a group",
+                "attach it to one body or frame");
   }
   if (name.empty() || !relate(frames, frames.reference, name)) {
     throw Error(whereOf(scene.bodies[body].name), "there is neither a body nor a tf frame '" + name + "'",
@@ -100,7 +103,8 @@ void switchOffTouching(Scene& scene, std::size_t body, Attachment& attachment) {
     const ScenePair& pair = scene.pairs[i];
     if (!pair.enabled || (pair.body_a != body && pair.body_b != body)) continue;
     const SceneBody& other = scene.bodies[pair.body_a == body ? pair.body_b : pair.body_a];
-    if (attachment.may_touch.count(other.serial) == 0 && !areRigid(scene, scene.bodies[body], other)) continue;
+    if (attachment.may_touch.count(other.serial) == 0 && !areRigid(scene, scene.bodies[body], other))
+      continue;
     attachment.switched_off.push_back(pair.name);
     scene.pairs.edit(i).enabled = false;
   }
@@ -141,7 +145,8 @@ std::vector<std::string> attachBody(Scene& scene, const std::string& name, const
   const std::size_t index = requireMovable(scene, name);
   const SceneBody& before = scene.bodies[index];
   if (before.attachment) {
-    throw Error(whereOf(name), "it is attached to '" + before.attachment->parent + "' already", "detach it first");
+    throw Error(whereOf(name), "it is attached to '" + before.attachment->parent + "' already",
+                "detach it first");
   }
   const Parent parent = parentNamed(scene, index, parent_name, frames);
   const Eigen::Isometry3d frame_from_body = poseIn(parent.frame, before, frames);

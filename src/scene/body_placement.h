@@ -13,7 +13,8 @@ namespace concave_distance::detail {
 /// attached to it move with it. Mesh, pairs and ids stay, as with the functions below.
 /// @param frame empty: the one that the body has
 /// @throws Error when there is no such body; for a robot's link, an attached body, an unknown frame, a pose
-///         that is not finite, and when tf moves its frame and none is given. Nothing is changed then, as below
+///         that is not finite, and when tf moves its frame and none is given. Nothing is changed then, as
+///         below
 void moveBody(Scene& scene, const std::string& name, const std::string& frame,
               const Eigen::Isometry3d& frame_from_body, const FramesNow& frames);
 

@@ -13,7 +13,7 @@ struct FrameRelation {
   bool is_fixed = false;  ///< only static transforms connect the two
 };
 
-/// What edits of a scene need to know of tf.
+/// Tells edits of a scene what tf knows.
 struct FramesNow {
   /// Returns nothing when the two frames are not connected.
   using Relation =

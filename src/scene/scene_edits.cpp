@@ -114,7 +114,8 @@ std::vector<std::string> setGroupsEnabled(Scene& scene, const std::vector<std::s
 void requireNothingAttached(const Scene& scene, const SceneBody& gone) {
   for (const SceneBody& body : scene.bodies) {
     if (body.attachment && body.attachment->parent_serial == gone.serial) {
-      throw Error("name", "'" + body.name + "' is attached to '" + gone.name + "'", "detach or remove it first");
+      throw Error("name", "'" + body.name + "' is attached to '" + gone.name + "'",
+                  "detach or remove it first");
     }
   }
 }
@@ -174,7 +175,8 @@ AddedPairs addBody(Scene& scene, SceneBody body, const PairPartners& partners, c
   return added;
 }
 
-AddedPairs appendBody(Scene& scene, SceneBody body, const PairPartners& partners, const PairSettings& settings) {
+AddedPairs appendBody(Scene& scene, SceneBody body, const PairPartners& partners,
+                      const PairSettings& settings) {
   requireRoomForBody(scene);
   if (!isRosName(body.name)) {
     throw Error("name", "'" + body.name + "' cannot be part of a topic name",

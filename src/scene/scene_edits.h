@@ -15,13 +15,15 @@ bool isRosName(const std::string& name);
 /// @throws Error when the scene has its largest number of bodies
 void requireRoomForBody(const Scene& scene);
 
-/// Adds a body and its pairs with its partners: those that are named by themselves are listed, the rule of the
-/// body gives the others.
-/// @throws Error when a body or a group has the name or it is not a ROS name, when a partner is unknown or the body itself, or
+/// Adds a body and its pairs with its partners: those that are named by themselves are listed, the rule of
+/// the body gives the others.
+/// @throws Error when a body or a group has the name or it is not a ROS name, when a partner is unknown or
+/// the body itself, or
 ///         when the scene would exceed its limits
 AddedPairs addBody(Scene& scene, SceneBody body, const PairPartners& partners, const PairSettings& settings);
 /// The same without the names of its pairs.
-AddedPairs appendBody(Scene& scene, SceneBody body, const PairPartners& partners, const PairSettings& settings);
+AddedPairs appendBody(Scene& scene, SceneBody body, const PairPartners& partners,
+                      const PairSettings& settings);
 
 /// @param allow_robot_link false: a link of a robot is refused
 /// @return names of the pairs removed with it. @throws Error when there is no such body, or when another one

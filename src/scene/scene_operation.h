@@ -39,7 +39,7 @@ struct SceneOperation {
   double warning_hysteresis = 0.0;
   bool allow_robot_link = false;  ///< Remove
   double margin = 0.0;            ///< SetMargin: metres
-  /// What is known to be wrong already, such as a mesh that cannot be read.
+  /// Says what is known to be wrong already, such as a mesh that cannot be read; empty: nothing.
   std::optional<Error> problem;
 };
 

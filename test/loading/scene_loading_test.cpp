@@ -346,8 +346,8 @@ TEST_F(SceneLoading, BodiesOfGivenTrianglesAreRefusedOneByOne) {
   SceneLimits limits;
   limits.triangles = 60;
   const std::vector<LoadedBody> loaded =
-      loadBodies({good, with(tetrahedron()), with({}), with(no_corner), with(no_number), with(many)}, "", nullptr,
-                 nullptr, nullptr, limits);
+      loadBodies({good, with(tetrahedron()), with({}), with(no_corner), with(no_number), with(many)}, "",
+                 nullptr, nullptr, nullptr, limits);
   ASSERT_EQ(loaded.size(), 6U);
   EXPECT_TRUE(loaded[0].body && !loaded[0].problem);
   EXPECT_TRUE(loaded[1].body && !loaded[1].problem);

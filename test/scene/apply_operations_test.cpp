@@ -105,7 +105,8 @@ SceneOperation margin(const std::string& name, double metres) {
   return result;
 }
 
-AppliedOperations run(Scene& scene, const std::vector<SceneOperation>& operations, const Frames& frames = {}) {
+AppliedOperations run(Scene& scene, const std::vector<SceneOperation>& operations,
+                      const Frames& frames = {}) {
   return applyOperations(scene, operations, frames.now());
 }
 
@@ -173,9 +174,8 @@ TEST(ApplyOperations, ListsEveryFaultAndNoneThatOnlyFollowsFromAnother) {
   Scene scene = cell();
   SceneOperation unreadable = operation(OperationKind::Add, "mug");
   unreadable.problem = Error("body 'mug'", "its mesh has no triangle", "give one");
-  const AppliedOperations applied =
-      run(scene, {move("cup", at(0)), unreadable, move("mug", at(1)), attach("box", "mug"), detach("peg"),
-                    move("box", at(4))});
+  const AppliedOperations applied = run(scene, {move("cup", at(0)), unreadable, move("mug", at(1)),
+                                                attach("box", "mug"), detach("peg"), move("box", at(4))});
   ASSERT_EQ(applied.faults.size(), 3U);
   EXPECT_EQ(applied.faults[0].operation, 0U);
   EXPECT_EQ(applied.faults[0].body, "cup");
@@ -190,7 +190,7 @@ TEST(ApplyOperations, AppliesEachToWhatThoseBeforeHaveMade) {
   Scene scene = cell();
   const AppliedOperations applied =
       run(scene, {operation(OperationKind::Remove, "box"), add(body("box", "bench")), attach("box", "hand"),
-                    detach("box"), margin("box", 0.2)});
+                  detach("box"), margin("box", 0.2)});
   ASSERT_TRUE(applied.faults.empty()) << applied.faults[0].error.what();
   const SceneBody& box = scene.bodies[*scene.findBody("box")];
   EXPECT_EQ(box.frame, "world");
@@ -322,7 +322,8 @@ class EditedScene {
  public:
   explicit EditedScene(std::uint64_t seed) : engine_(seed), scene_(cell()), tracker_({1, nullptr}) {
     for (const SceneBody& each : scene_.bodies) {
-      model_.bodies[each.name] = {frames_.world_from[each.frame] * each.frame_from_body, each.frame, "", at(0), "", {}};
+      model_.bodies[each.name] = {
+          frames_.world_from[each.frame] * each.frame_from_body, each.frame, "", at(0), "", {}};
     }
     for (const char* link : {"hand", "arm"}) motions_[link] = test::randomMotion(engine_);
     tracker_.setScene(scene_);
@@ -365,9 +366,7 @@ class EditedScene {
   };
 
   Isometry3d randomPose() { return test::randomMotion(engine_).at(1.0); }
-  std::string anyBody() {
-    return scene_.bodies[engine_() % scene_.bodies.size()].name;
-  }
+  std::string anyBody() { return scene_.bodies[engine_() % scene_.bodies.size()].name; }
 
   /// @return true when no body changes its place
   bool edit() {
@@ -431,9 +430,7 @@ class EditedScene {
     }
   }
 
-  void cycle() {
-    tracker_.update(posesOf(scene_, frames_), time_);
-  }
+  void cycle() { tracker_.update(posesOf(scene_, frames_), time_); }
 
   std::map<std::string, Seen> seen() const {
     std::map<std::string, Seen> all;
@@ -511,7 +508,8 @@ TEST(EditedScene, AnswersAsAFreshOneAndKeepsMeshesTrackersAndIds) {
 TEST(EditedScene, TakesAHundredBodiesOfOneMeshInABatch) {
   Scene scene = cell();
   std::vector<SceneOperation> operations;
-  for (int i = 0; i < 100; ++i) operations.push_back(add(body("c" + std::to_string(i), "world", at(0, 2.0 * i))));
+  for (int i = 0; i < 100; ++i)
+    operations.push_back(add(body("c" + std::to_string(i), "world", at(0, 2.0 * i))));
   ASSERT_TRUE(run(scene, operations).faults.empty());
   EXPECT_EQ(scene.bodies.size(), 105U);
   EXPECT_EQ(countRuledPairs(scene), 2U * 103U + 1U) << "each against the two links, and these";

@@ -93,8 +93,8 @@ std::vector<std::string> descriptionsOfSceneFile(const std::string& path);
 struct BodyShape {
   std::string mesh_resource;  ///< either this ...
   Eigen::Vector3d scale = Eigen::Vector3d::Ones();
-  std::string primitive;                                          ///< ... or a primitive's name with its `dimensions`
-  std::vector<double> dimensions;                                 ///< metres, in the order of srv/AddBody.srv
+  std::string primitive;           ///< ... or a primitive's name with its `dimensions`
+  std::vector<double> dimensions;  ///< metres, in the order of srv/AddBody.srv
   Eigen::Isometry3d frame_from_geometry = Eigen::Isometry3d::Identity();
   std::shared_ptr<const TriangleSoup> triangles;  ///< ... or these, metres
 };
@@ -113,13 +113,14 @@ struct LoadedBody {
   std::optional<SceneBody> body;
   std::optional<Error> problem;
 };
-/// Loads bodies as a scene does, in parallel; one result for each, in their order. The parameters are those of
-/// loadBody().
+/// Loads bodies as a scene does, in parallel; one result for each, in their order. The parameters are those
+/// of loadBody().
 [[nodiscard]] std::vector<LoadedBody> loadBodies(const std::vector<BodyDescription>& descriptions,
                                                  const std::string& base_folder,
                                                  const PackageLocator& package_locator,
                                                  const std::shared_ptr<BodyPool>& pool,
-                                                 const PreparationCachePointer& cache, const SceneLimits& limits);
+                                                 const PreparationCachePointer& cache,
+                                                 const SceneLimits& limits);
 /// Loads one body as a scene does.
 /// @param pool of its scene; nullptr: a new one
 /// @param cache as SceneLoadOptions::cache

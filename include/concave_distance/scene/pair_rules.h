@@ -53,8 +53,8 @@ struct AddedBodyRule {
   bool watches(std::uint64_t serial) const { return (bodies.count(serial) != 0) != all; }
 };
 
-/// Returns whether nothing moves the two bodies against each other: their frames are one or rigidly connected,
-/// and no edit moves one alone.
+/// Returns whether nothing moves the two bodies against each other: their frames are one or rigidly
+/// connected, and no edit moves one alone.
 bool areRigid(const Scene& scene, const SceneBody& a, const SceneBody& b);
 
 /// Returns the rule of two bodies, places in scene.bodies, when it watches them: neither a filter, areRigid()

@@ -46,9 +46,10 @@ void MoveReceiver::receive(const SceneMoves& moves) {
 std::size_t MoveReceiver::apply(const SceneMoves& moves) {
   requireScene(keeper_);
   if (moves.bodies.size() != moves.poses.size()) {
-    throw Error("scene_moves",
-                std::to_string(moves.bodies.size()) + " bodies and " + std::to_string(moves.poses.size()) + " poses",
-                "send one pose for each body");
+    throw Error(
+        "scene_moves",
+        std::to_string(moves.bodies.size()) + " bodies and " + std::to_string(moves.poses.size()) + " poses",
+        "send one pose for each body");
   }
   const std::string& given = moves.header.frame_id;
   const std::string frame = given.empty() ? given : requireFrameName(given, "header.frame_id");
@@ -76,7 +77,8 @@ void MoveReceiver::note(const std::string& body, const std::string& problem) {
   ++report_.refused;
   ++report_.refused_in_all;
   report_.last_refusal = shortText(problem);
-  if (throttle_.isDue(body)) ROS_WARN_STREAM("scene_moves: " << printable(body) << ": " << report_.last_refusal);
+  if (throttle_.isDue(body))
+    ROS_WARN_STREAM("scene_moves: " << printable(body) << ": " << report_.last_refusal);
 }
 
 MoveReport MoveReceiver::take() {

@@ -55,7 +55,8 @@ BodyShape fromPrimitive(const shape_msgs::SolidPrimitive& primitive, const std::
   return shape;
 }
 
-BodyShape fromMesh(const shape_msgs::Mesh& mesh, std::size_t largest_triangle_count, const std::string& where) {
+BodyShape fromMesh(const shape_msgs::Mesh& mesh, std::size_t largest_triangle_count,
+                   const std::string& where) {
   if (mesh.triangles.empty()) throw Error(where, "it has no triangle", "give at least one");
   if (mesh.triangles.size() > largest_triangle_count) {
     throw Error(where, std::to_string(mesh.triangles.size()) + " triangles",
@@ -63,7 +64,8 @@ BodyShape fromMesh(const shape_msgs::Mesh& mesh, std::size_t largest_triangle_co
   }
   auto soup = std::make_shared<TriangleSoup>();
   soup->vertices.reserve(mesh.vertices.size());
-  for (const geometry_msgs::Point& vertex : mesh.vertices) soup->vertices.emplace_back(vertex.x, vertex.y, vertex.z);
+  for (const geometry_msgs::Point& vertex : mesh.vertices)
+    soup->vertices.emplace_back(vertex.x, vertex.y, vertex.z);
   soup->triangles.reserve(mesh.triangles.size());
   for (const shape_msgs::MeshTriangle& triangle : mesh.triangles) {
     soup->triangles.push_back(
@@ -80,7 +82,8 @@ void appendShapes(const std::string& name, const List& list, const std::string& 
                   const std::vector<geometry_msgs::Pose>& poses, std::vector<BodyShape>& shapes,
                   const ToShape& to_shape) {
   if (!poses.empty() && poses.size() != list.size()) {
-    throw Error(poses_name, std::to_string(poses.size()) + " poses for " + std::to_string(list.size()) + " " + name,
+    throw Error(poses_name,
+                std::to_string(poses.size()) + " poses for " + std::to_string(list.size()) + " " + name,
                 "give one for each, or none");
   }
   for (std::size_t i = 0; i < list.size(); ++i) {
@@ -91,8 +94,9 @@ void appendShapes(const std::string& name, const List& list, const std::string& 
 
 std::vector<BodyShape> shapesOf(const SceneOperation& message, std::size_t largest_triangle_count) {
   std::vector<BodyShape> shapes;
-  appendShapes("primitives", message.primitives, "primitive_poses", message.primitive_poses, shapes,
-               [](const auto& primitive, std::size_t i) { return fromPrimitive(primitive, place("primitives", i)); });
+  appendShapes(
+      "primitives", message.primitives, "primitive_poses", message.primitive_poses, shapes,
+      [](const auto& primitive, std::size_t i) { return fromPrimitive(primitive, place("primitives", i)); });
   appendShapes("meshes", message.meshes, "mesh_poses", message.mesh_poses, shapes,
                [&](const auto& mesh, std::size_t i) {
                  return fromMesh(mesh, largest_triangle_count, place("meshes", i));
@@ -100,12 +104,12 @@ std::vector<BodyShape> shapesOf(const SceneOperation& message, std::size_t large
   const auto& scales = message.mesh_resource_scales;
   if (!scales.empty() && scales.size() != message.mesh_resources.size()) {
     throw Error("mesh_resource_scales",
-                std::to_string(scales.size()) + " scales for " + std::to_string(message.mesh_resources.size()) +
-                    " mesh_resources",
+                std::to_string(scales.size()) + " scales for " +
+                    std::to_string(message.mesh_resources.size()) + " mesh_resources",
                 "give one for each, or none");
   }
-  appendShapes("mesh_resources", message.mesh_resources, "mesh_resource_poses", message.mesh_resource_poses, shapes,
-               [&](const std::string& resource, std::size_t i) {
+  appendShapes("mesh_resources", message.mesh_resources, "mesh_resource_poses", message.mesh_resource_poses,
+               shapes, [&](const std::string& resource, std::size_t i) {
                  if (resource.empty()) throw Error(place("mesh_resources", i), "it is empty", "name a file");
                  BodyShape shape;
                  shape.mesh_resource = resource;
@@ -124,7 +128,8 @@ void fill(const SceneOperation& message, detail::SceneOperation& operation) {
   }
   operation.kind = static_cast<OperationKind>(message.operation);
   if (!message.frame_id.empty()) operation.frame = requireFrameName(message.frame_id, "frame_id");
-  if (operation.kind == OperationKind::Move) operation.frame_from_body = poseFromMessage(message.pose, "pose");
+  if (operation.kind == OperationKind::Move)
+    operation.frame_from_body = poseFromMessage(message.pose, "pose");
   if (operation.kind == OperationKind::Add) {
     operation.partners = {message.pair_with, message.without_pairs != 0, message.touch_links, {}};
     operation.warning_distance = warningDistanceOf(message);

@@ -90,9 +90,9 @@ OperationServices::OperationServices(ServiceQueues& queues, SceneStore& keeper,
 bool OperationServices::applyScene(ApplyScene::Request& request, ApplyScene::Response& response) {
   return respond(response, [&] {
     response.revision = keeper_.served()->revision;
-    const bool adds = std::any_of(request.operations.begin(), request.operations.end(), [](const auto& message) {
-      return message.operation == SceneOperation::ADD;
-    });
+    const bool adds =
+        std::any_of(request.operations.begin(), request.operations.end(),
+                    [](const auto& message) { return message.operation == SceneOperation::ADD; });
     if (adds) {
       const RequestGate::Place place = gate_.enter();
       applyAll(request.operations, response);
@@ -102,7 +102,8 @@ bool OperationServices::applyScene(ApplyScene::Request& request, ApplyScene::Res
   });
 }
 
-void OperationServices::applyAll(const std::vector<SceneOperation>& messages, ApplyScene::Response& response) {
+void OperationServices::applyAll(const std::vector<SceneOperation>& messages,
+                                 ApplyScene::Response& response) {
   requireScene(keeper_);
   detail::requireBatchSize(messages.size());
   const std::vector<detail::SceneOperation> operations = load(messages);
@@ -145,9 +146,8 @@ void OperationServices::loadBodies(const std::vector<SceneOperation>& messages,
         operation.problem = error;
       }
     }
-    std::vector<LoadedBody> loaded =
-        concave_distance::loadBodies(descriptions, "", package_locator_, scene->pool,
-                                     has_files ? scene->cache : nullptr, scene->limits);
+    std::vector<LoadedBody> loaded = concave_distance::loadBodies(
+        descriptions, "", package_locator_, scene->pool, has_files ? scene->cache : nullptr, scene->limits);
     for (std::size_t k = 0; k < loaded.size(); ++k) {
       detail::SceneOperation& operation = operations[places[k]];
       operation.problem = loaded[k].problem;

@@ -36,7 +36,8 @@ class OperationServices {
   /// @throws Error when an operation is wrong; then `response` has the faults
   void applyAll(const std::vector<SceneOperation>& messages, ApplyScene::Response& response);
   std::vector<detail::SceneOperation> load(const std::vector<SceneOperation>& messages);
-  void loadBodies(const std::vector<SceneOperation>& messages, std::vector<detail::SceneOperation>& operations);
+  void loadBodies(const std::vector<SceneOperation>& messages,
+                  std::vector<detail::SceneOperation>& operations);
   struct Outcome {
     std::uint64_t revision = 0;
     detail::AppliedOperations applied;

@@ -1,5 +1,5 @@
-// apply_scene and scene_moves of a running node: a part is picked, carried and put down; bodies of all shapes;
-// nonsense.
+// apply_scene and scene_moves of a running node: a part is picked, carried and put down; bodies of all
+// shapes; nonsense.
 #include <concave_distance/Alert.h>
 #include <concave_distance/ApplyScene.h>
 #include <concave_distance/Distances.h>

@@ -98,7 +98,9 @@ TEST(FramePoses, AreThoseOfEachPairAlone) {
         const auto error = [](const Eigen::Isometry3d& l, const Eigen::Isometry3d& r) {
           return (l.matrix() - r.matrix()).cwiseAbs().maxCoeff();
         };
-        ASSERT_LE(error(poses.poses().relative(a, b, common.time), places[a].inverse() * expected.a_from_b * places[b]), 1e-9);
+        ASSERT_LE(error(poses.poses().relative(a, b, common.time),
+                        places[a].inverse() * expected.a_from_b * places[b]),
+                  1e-9);
         ASSERT_LE(error(poses.referenceFrom(a, b), expected.reference_from_a * places[a]), 1e-9);
       }
     }

@@ -7,8 +7,8 @@
 namespace concave_distance {
 
 /// Closed, outward-oriented meshes of primitives, their boxes centred as URDF has them (cylinder, capsule and
-/// cone along z). Round surfaces are inscribed: no point of the mesh lies outside the true solid, none of the true
-/// surface is farther than `chord_error` (metres) from the mesh.
+/// cone along z). Round surfaces are inscribed: no point of the mesh lies outside the true solid, none of the
+/// true surface is farther than `chord_error` (metres) from the mesh.
 /// @throws Error (naming `where`) when a size or the chord error is not positive and finite
 SurfaceMesh makeBox(const Eigen::Vector3d& size, const std::string& where = "box");
 SurfaceMesh makeSphere(double radius, double chord_error, const std::string& where = "sphere");
