@@ -1,6 +1,7 @@
 #include "operation_services.h"
 
 #include <ros/console.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <memory>
@@ -146,8 +147,12 @@ void OperationServices::loadBodies(const std::vector<SceneOperation>& messages,
         operation.problem = error;
       }
     }
-    std::vector<LoadedBody> loaded = concave_distance::loadBodies(
-        descriptions, "", package_locator_, scene->pool, has_files ? scene->cache : nullptr, scene->limits);
+    // On this thread alone: a worker that reads meshes would be missing in the cycle.
+    std::vector<LoadedBody> loaded;
+    tbb::task_arena(1).execute([&] {
+      loaded = concave_distance::loadBodies(descriptions, "", package_locator_, scene->pool,
+                                            has_files ? scene->cache : nullptr, scene->limits);
+    });
     for (std::size_t k = 0; k < loaded.size(); ++k) {
       detail::SceneOperation& operation = operations[places[k]];
       operation.problem = loaded[k].problem;
