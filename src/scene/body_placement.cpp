@@ -1,10 +1,12 @@
 #include "body_placement.h"
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <utility>
 
 #include "concave_distance/base/error.h"
+#include "equal_settings.h"
 #include "matching_bodies.h"
 #include "scene_edits.h"
 
@@ -45,6 +47,30 @@ std::optional<std::size_t> findBySerial(const Scene& scene, std::uint64_t serial
   return std::nullopt;
 }
 
+bool isAsItsRule(const Scene& scene, const ScenePair& pair) {
+  const auto [earlier, later] = std::minmax(pair.body_a, pair.body_b);
+  const PairRule& rule = scene.rules.of(scene.bodies[earlier].pair_class, scene.bodies[later].pair_class);
+  const std::shared_ptr<const AddedBodyRule>& added = scene.bodies[later].added_rule;
+  return (rule.is_watched || (added && added->watches(scene.bodies[earlier].serial))) &&
+         pair.enabled == rule.is_enabled && haveEqualSettings(pair.settings, settingsOf(scene, rule));
+}
+
+// Pairs that are listed and as their rule has them, such as those with topics of their own, follow it again
+// when nothing moves their bodies against each other any more.
+void unlistResting(Scene& scene, std::size_t body, const std::vector<std::string>& kept) {
+  const auto rests = [&](const ScenePair& pair) {
+    return (pair.body_a == body || pair.body_b == body) &&
+           areRigid(scene, scene.bodies[pair.body_a], scene.bodies[pair.body_b]) &&
+           isAsItsRule(scene, pair) && std::find(kept.begin(), kept.end(), pair.name) == kept.end();
+  };
+  if (std::none_of(scene.pairs.begin(), scene.pairs.end(), rests)) return;
+  PairList others;
+  for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
+    if (!rests(scene.pairs[i])) others.appendShared(scene.pairs, i);
+  }
+  scene.pairs = std::move(others);
+}
+
 // Places what is attached to a body, and to that in turn.
 void carryAlong(Scene& scene, std::size_t parent) {
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
@@ -54,6 +80,7 @@ void carryAlong(Scene& scene, std::size_t parent) {
     body.frame = scene.bodies[parent].frame;
     body.frame_from_body = scene.bodies[parent].frame_from_body * attachment->parent_from_body;
     body.carrier = scene.bodies[parent].carrier;
+    unlistResting(scene, i, {});
     carryAlong(scene, i);
   }
 }
@@ -189,6 +216,7 @@ void detachBody(Scene& scene, const std::string& name, const std::string& frame,
   for (const std::string& pair : attachment->switched_off) {
     if (const auto place = scene.pairs.find(pair)) scene.pairs.edit(*place).enabled = true;
   }
+  unlistResting(scene, index, attachment->switched_off);
 }
 
 }  // namespace concave_distance::detail

@@ -11,6 +11,7 @@
 
 #include "base/random_engine.h"
 #include "concave_distance/scene/scene_tracker.h"
+#include "scene/rule_edits.h"
 #include "scene/scene_edits.h"
 #include "support/body_motions.h"
 #include "support/box_scene.h"
@@ -279,6 +280,21 @@ TEST(AttachedBody, IsNotWatchedAgainstWhatItMayTouchUntilItIsDetached) {
   EXPECT_TRUE(watches(scene, "box", "hand"));
   EXPECT_TRUE(watches(scene, "box", "arm"));
   EXPECT_FALSE(watches(scene, "box", "table")) << "as before";
+}
+
+// Small scenes list all their pairs, because each has topics.
+TEST(AttachedBody, RestsAgainAgainstBodiesOfTheFrameWhereItIsLeft) {
+  Scene scene = cell();
+  ASSERT_TRUE(run(scene, {attach("peg", "box"), attach("box", "hand")}).faults.empty());
+  listMatchingPairs(scene, {"*"});
+  EXPECT_TRUE(watches(scene, "box", "table"));
+  EXPECT_TRUE(watches(scene, "peg", "table"));
+  EXPECT_FALSE(watches(scene, "peg", "hand"));
+  ASSERT_TRUE(run(scene, {detach("box")}).faults.empty());
+  EXPECT_FALSE(watches(scene, "box", "table"));
+  EXPECT_FALSE(watches(scene, "peg", "table"));
+  EXPECT_TRUE(watches(scene, "peg", "hand"));
+  EXPECT_TRUE(watches(scene, "box", "hand"));
 }
 
 /// What is known of the bodies without the scene: where they are, and what moves them.
