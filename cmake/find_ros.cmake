@@ -12,6 +12,7 @@ set(CONCAVE_DISTANCE_ROS_PACKAGES
   rosgraph_msgs
   roslib
   sensor_msgs
+  shape_msgs
   std_msgs
   std_srvs
   tf2

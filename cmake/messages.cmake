@@ -10,17 +10,21 @@ set(CONCAVE_DISTANCE_MESSAGES
   Niche.msg
   NicheChange.msg
   Niches.msg
+  OperationFault.msg
   PairContactState.msg
   PairDistance.msg
   PairInfo.msg
   PairNiches.msg
   PairStatus.msg
   Problem.msg
+  SceneMoves.msg
+  SceneOperation.msg
   SimulationState.msg
   SolveCost.msg
 )
 set(CONCAVE_DISTANCE_SERVICES
   AddBody.srv
+  ApplyScene.srv
   GetDistance.srv
   GetDistances.srv
   ListBodies.srv
@@ -41,7 +45,7 @@ if(CONCAVE_DISTANCE_SERVICES)
   add_service_files(FILES ${CONCAVE_DISTANCE_SERVICES})
 endif()
 if(CONCAVE_DISTANCE_MESSAGES OR CONCAVE_DISTANCE_SERVICES)
-  generate_messages(DEPENDENCIES geometry_msgs std_msgs)
+  generate_messages(DEPENDENCIES geometry_msgs shape_msgs std_msgs)
 endif()
 if(CONCAVE_DISTANCE_DYNAMIC_RECONFIGURE)
   generate_dynamic_reconfigure_options(${CONCAVE_DISTANCE_DYNAMIC_RECONFIGURE})

@@ -61,11 +61,20 @@ void locateAll(std::vector<BodySource>& sources, const BuildOptions& options, st
   }
 }
 
-void checkTriangleCount(const SurfaceMesh& surface, const BodySource& source, const SceneLimits& limits) {
-  if (surface.triangleCount() > limits.triangles) {
-    throw Error(source.source, std::to_string(surface.triangleCount()) + " triangles",
+void checkTriangleCount(std::size_t count, const BodySource& source, const SceneLimits& limits) {
+  if (count > limits.triangles) {
+    throw Error(source.source, std::to_string(count) + " triangles",
                 "reduce the mesh; the limit of a body is " + std::to_string(limits.triangles));
   }
+}
+
+// Before they are repaired.
+std::size_t givenTriangles(const BodySource& source) {
+  std::size_t count = 0;
+  for (const GeometryElement& element : source.geometry) {
+    count += element.triangles ? element.triangles->triangles.size() : 0;
+  }
+  return count;
 }
 
 // With larger coordinates, squares lose all small terms; at 1e154 m they overflow.
@@ -98,8 +107,9 @@ std::shared_ptr<const BodyMesh> sharedMesh(const BodySource& source, SurfaceMesh
 
 SceneBody build(const BodySource& source, const std::shared_ptr<BodyPool>& pool,
                 const PreparationCachePointer& cache, const SceneLimits& limits) {
+  checkTriangleCount(givenTriangles(source), source, limits);
   RepairedMesh repaired = loadGeometry(source.geometry, source.source, cache.get());
-  checkTriangleCount(repaired.mesh, source, limits);
+  checkTriangleCount(repaired.mesh.triangleCount(), source, limits);
   checkExtent(repaired.mesh, source);
   SceneBody body = source;
   body.repair = repaired.report;

@@ -47,19 +47,21 @@ TriangleSoup soupOf(const SurfaceMesh& mesh) {
   return soup;
 }
 
-/// The opened mesh file; nothing for a primitive.
+/// The opened mesh file; nothing for any other geometry.
 std::optional<MeshFile> openElement(const GeometryElement& element) {
-  if (element.mesh_resource.empty() == element.primitive.empty()) {
-    throw Error(element.where,
-                element.primitive.empty() ? "neither a mesh nor a primitive" : "both a mesh and a primitive",
+  const int given = (element.mesh_resource.empty() ? 0 : 1) + (element.primitive.empty() ? 0 : 1) +
+                    (element.triangles ? 1 : 0);
+  if (given != 1) {
+    throw Error(element.where, given == 0 ? "neither a mesh nor a primitive" : "both a mesh and a primitive",
                 "give one of them");
   }
-  if (!element.primitive.empty()) return std::nullopt;
+  if (element.mesh_resource.empty()) return std::nullopt;
   return std::optional<MeshFile>(std::in_place, element.mesh_resource, element.real_folders);
 }
 
 /// Adds all that the element's surface is made from. False where that is not in the file and numbers named.
 bool addElement(ContentHasher& hasher, const GeometryElement& element, const std::optional<MeshFile>& file) {
+  if (element.triangles) return false;
   hasher.add(element.primitive);
   for (const double dimension : element.dimensions) hasher.add(dimension);
   if (file) {
@@ -96,6 +98,11 @@ KeyedMesh makeSurface(const std::vector<GeometryElement>& elements, const Repair
       throw Error(element.where, "the pose is not finite", "give finite numbers");
     }
     const std::optional<MeshFile> file = openElement(element);
+    if (element.triangles) {
+      appendTransformed(body, *element.triangles, element.frame_from_geometry);
+      with_key = false;
+      continue;
+    }
     appendTransformed(
         body, file ? importMesh(*file, element.scale, element.access.limits) : soupOf(makePrimitive(element)),
         element.frame_from_geometry);
@@ -110,7 +117,7 @@ KeyedMesh makeSurface(const std::vector<GeometryElement>& elements, const Repair
 
 std::string locateGeometry(GeometryElement& element, const MeshFolders& folders,
                            const PackageLocator& package_locator) {
-  if (!element.primitive.empty()) return "";
+  if (!element.primitive.empty() || element.triangles) return "";
   try {
     if (element.access.roots) {
       LocatedMesh located = locateMeshBelow(element.mesh_resource, *element.access.roots, package_locator);
@@ -162,7 +169,7 @@ std::string describeApproximations(const std::vector<GeometryElement>& elements)
     if (exact) {
       text << " taken exactly; searched and drawn as a mesh, ";
     } else {
-      text << " among several elements meshed from inside, ";
+      text << (elements.size() > 1 ? " among several elements" : "") << " meshed from inside, ";
     }
     text << chordErrorOf(element) << " m off at most";
   }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,7 +20,8 @@ struct GeometryElement {
   std::string where;                                ///< what messages call it
   std::string mesh_resource;                        ///< either this ...
   Eigen::Vector3d scale = Eigen::Vector3d::Ones();  ///< of the mesh
-  std::string primitive;                            ///< ... or the name of one of primitives()
+  std::string primitive;                            ///< ... or the name of one of primitives() ...
+  std::shared_ptr<const TriangleSoup> triangles;    ///< ... or these, metres
   std::vector<double> dimensions;                   ///< as BodyDescription::dimensions, metres
   std::optional<double> chord_error;                ///< metres; empty: 1 % of the radius
   Eigen::Isometry3d frame_from_geometry = Eigen::Isometry3d::Identity();
@@ -27,7 +29,7 @@ struct GeometryElement {
   std::vector<std::string> real_folders;  ///< the file must be below one of them; empty: anywhere
 };
 
-/// Replaces the element's resource by a path of this machine; a primitive is not changed.
+/// Replaces the element's resource by a path of this machine; one without is not changed.
 /// @return the folder of the search path where it was found; empty: none was needed
 /// @throws Error as searchMesh, naming the element too
 std::string locateGeometry(GeometryElement& element, const MeshFolders& folders,

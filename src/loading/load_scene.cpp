@@ -318,21 +318,37 @@ Scene loadRobotScene(const std::string& urdf, const std::string& where, const Sc
   return scene;
 }
 
-SceneBody loadBody(const BodyDescription& description, const std::string& base_folder,
-                   const PackageLocator& package_locator, const std::shared_ptr<BodyPool>& pool,
-                   const PreparationCachePointer& cache, const SceneLimits& limits) {
-  std::vector<BuiltBody> built =
-      detail::buildBodies({detail::sourceOf(description, base_folder)},
-                          {package_locator,
+std::vector<LoadedBody> loadBodies(const std::vector<BodyDescription>& descriptions,
+                                   const std::string& base_folder, const PackageLocator& package_locator,
+                                   const std::shared_ptr<BodyPool>& pool,
+                                   const PreparationCachePointer& cache, const SceneLimits& limits) {
+  std::vector<detail::BodySource> sources;
+  for (const BodyDescription& description : descriptions) {
+    sources.push_back(detail::sourceOf(description, base_folder));
+  }
+  std::vector<BuiltBody> built = detail::buildBodies(
+      std::move(sources), {package_locator,
                            {},
                            pool ? pool : std::make_shared<BodyPool>(kDefaultMetricMemoryLimit),
                            cache,
                            limits,
                            nullptr});
-  if (!built.front().body) {
-    throw Error("body '" + description.name + "'", built.front().problem, "it is not added");
+  std::vector<LoadedBody> loaded(built.size());
+  for (std::size_t i = 0; i < built.size(); ++i) {
+    loaded[i].body = std::move(built[i].body);
+    if (loaded[i].body) continue;
+    loaded[i].problem.emplace("body '" + descriptions[i].name + "'", built[i].problem, "it is not added");
   }
-  return std::move(*built.front().body);
+  return loaded;
+}
+
+SceneBody loadBody(const BodyDescription& description, const std::string& base_folder,
+                   const PackageLocator& package_locator, const std::shared_ptr<BodyPool>& pool,
+                   const PreparationCachePointer& cache, const SceneLimits& limits) {
+  LoadedBody loaded =
+      std::move(loadBodies({description}, base_folder, package_locator, pool, cache, limits).front());
+  if (loaded.problem) throw Error(*loaded.problem);
+  return std::move(*loaded.body);
 }
 
 }  // namespace concave_distance

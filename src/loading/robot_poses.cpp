@@ -74,7 +74,9 @@ std::vector<std::optional<Eigen::Isometry3d>> RobotPoses::of(
   poses.reserve(scene.bodies.size());
   for (const SceneBody& body : scene.bodies) {
     const auto link = links.find(body.frame);
-    poses.push_back(link == links.end() ? std::nullopt : std::optional(link->second));
+    poses.push_back(link == links.end()
+                        ? std::nullopt
+                        : std::optional<Eigen::Isometry3d>(link->second * body.frame_from_body));
     any = any || link != links.end();
   }
   if (!any) {

@@ -147,20 +147,26 @@ void limitImports(SceneParts& parts, const MeshImportLimits& limits) {
 }
 
 BodySource sourceOf(const BodyDescription& description, const std::string& base_folder) {
-  GeometryElement element;
-  element.mesh_resource = description.mesh_resource;
-  element.scale = description.scale;
-  element.primitive = description.primitive;
-  element.dimensions = description.dimensions;
-  element.chord_error = description.chord_error;
-  element.frame_from_geometry = description.frame_from_geometry;
-  element.access = description.mesh_access;
   BodySource source;
   source.name = description.name;
   source.frame = description.frame;
   source.source = "body '" + description.name + "'";
-  element.where = source.source;
-  source.geometry.push_back(std::move(element));
+  const auto add = [&](const BodyShape& shape, const std::string& which) {
+    GeometryElement element;
+    element.mesh_resource = shape.mesh_resource;
+    element.scale = shape.scale;
+    element.primitive = shape.primitive;
+    element.dimensions = shape.dimensions;
+    element.triangles = shape.triangles;
+    element.chord_error = description.chord_error;
+    element.frame_from_geometry = shape.frame_from_geometry;
+    element.access = description.mesh_access;
+    element.where = source.source + which;
+    source.geometry.push_back(std::move(element));
+  };
+  const std::vector<BodyShape>& others = description.other_shapes;
+  add(description, others.empty() ? "" : ", shape 1");
+  for (std::size_t i = 0; i < others.size(); ++i) add(others[i], ", shape " + std::to_string(i + 2));
   source.base_folder = base_folder;
   source.max_edge_length = description.max_edge_length;
   return source;

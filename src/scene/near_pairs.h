@@ -42,6 +42,7 @@ class NearPairs {
     std::uint32_t slot_count = 0;
     /// For each near pair what it is in the new scene; nullptr: it leaves.
     std::vector<std::shared_ptr<const ScenePair>> pairs;
+    std::vector<std::shared_ptr<const ScenePair>> resting;  ///< the same for each pair that rests
     std::size_t ruled = 0;  ///< enabled pairs by rule
     bool has_rules = false;
   };

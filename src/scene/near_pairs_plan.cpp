@@ -83,10 +83,12 @@ NearPairs::Plan NearPairs::plan(const Scene& scene, bool settings_changed) const
   for (const Plan::Body& body : now_.bodies) {
     if (next.slot_of.count(body.body->serial) == 0) next.freed_slots.push_back(body.slot);
   }
-  for (const std::shared_ptr<TrackedPair>& pair : pairs_) {
-    next.pairs.push_back(pairIn(scene, findBySerial(places, *pair->body_a, scene),
-                                findBySerial(places, *pair->body_b, scene), *pair, settings_changed));
-  }
+  const auto in_next = [&](const TrackedPair& pair) {
+    return pairIn(scene, findBySerial(places, *pair.body_a, scene), findBySerial(places, *pair.body_b, scene),
+                  pair, settings_changed);
+  };
+  for (const std::shared_ptr<TrackedPair>& pair : pairs_) next.pairs.push_back(in_next(*pair));
+  for (const Resting& resting : resting_) next.resting.push_back(in_next(*resting.pair));
   next.ruled = next.has_rules ? countRuledPairs(scene) : 0;
   return next;
 }
@@ -112,19 +114,23 @@ void NearPairs::adopt(Plan&& plan, bool settings_changed, std::uint64_t& largest
   entries_.resize(kept);
   pairs_.resize(kept);
   entry_of_.clear();
-  // What rests may be of bodies that are gone or changed.
-  for (Resting& resting : resting_) largest_id = std::max(largest_id, resting.pair->largest_id);
-  const auto is_gone = [&](const Resting& resting) {
-    const auto is_there = [&](const SceneBody& body) {
-      const auto found = plan.slot_of.find(body.serial);
-      if (found == plan.slot_of.end()) return false;
-      const auto at = std::find_if(plan.bodies.begin(), plan.bodies.end(),
-                                   [&](const Plan::Body& now) { return now.slot == found->second; });
-      return at->body.get() == &body;
-    };
-    return settings_changed || !is_there(*resting.pair->body_a) || !is_there(*resting.pair->body_b);
-  };
-  resting_.erase(std::remove_if(resting_.begin(), resting_.end(), is_gone), resting_.end());
+  std::size_t rests = 0;
+  for (std::size_t i = 0; i < resting_.size(); ++i) {
+    std::shared_ptr<const ScenePair>& pair = plan.resting[i];
+    if (!pair) {
+      largest_id = std::max(largest_id, resting_[i].pair->largest_id);
+      continue;
+    }
+    if (pair != resting_[i].pair->origin || settings_changed) {
+      const auto& a = plan.scene.bodies.share(pair->body_a);
+      const auto& b = plan.scene.bodies.share(pair->body_b);
+      resting_[i].pair->adopt(std::move(pair), a, b, settings_changed);
+    }
+    if (rests != i) resting_[rests] = std::move(resting_[i]);
+    ++rests;
+  }
+  resting_.resize(rests);
+  plan.resting.clear();
   plan.pairs.clear();
   now_ = std::move(plan);
   asks_all_ = true;

@@ -17,6 +17,9 @@ class MovingBodies {
 
   bool holds(std::size_t index) {
     const SceneBody& other = scene_.bodies[index];
+    if (other.carrier != 0) {
+      return true;
+    }
     if (other.frame == frame_) {
       return false;
     }
@@ -66,9 +69,9 @@ Partners partnersNamed(const Scene& scene, const SceneBody& body, const PairPart
   }
   for (const std::string& name : partners.names) {
     for (const std::size_t index : detail::matchingBodies(scene, name, "pair_with").bodies) {
-      if (seen.insert(index).second && moving.holds(index)) {
-        found.rule.bodies.insert(scene.bodies[index].serial);
-      }
+      if (!seen.insert(index).second) continue;
+      moving.holds(index);
+      found.rule.bodies.insert(scene.bodies[index].serial);  // ruleOf() leaves it out while it does not move
     }
   }
   found.rigid_frames = std::move(moving.found_by_asking);

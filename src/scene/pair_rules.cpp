@@ -26,6 +26,11 @@ bool isWatched(const Scene& scene, std::size_t earlier, std::size_t later) {
          (b.added_rule && b.added_rule->watches(a.serial));
 }
 
+bool mayTouch(const SceneBody& a, const SceneBody& b) {
+  return (a.attachment && a.attachment->may_touch.count(b.serial) != 0) ||
+         (b.attachment && b.attachment->may_touch.count(a.serial) != 0);
+}
+
 std::string nameOf(const Scene& scene, std::size_t body_a, std::size_t body_b) {
   const std::string wanted = scene.bodies[body_a].pairLabel() + "/" + scene.bodies[body_b].pairLabel();
   std::string name = wanted;
@@ -68,13 +73,18 @@ std::uint64_t newBodySerial() {
   return ++last;
 }
 
+bool areRigid(const Scene& scene, const SceneBody& a, const SceneBody& b) {
+  return a.carrier == b.carrier &&
+         (a.carrier != 0 || a.frame == b.frame || scene.rigid.areJoined(a.frame, b.frame));
+}
+
 const PairRule* ruleOf(const Scene& scene, std::size_t body_a, std::size_t body_b) {
   const auto [earlier, later] = std::minmax(body_a, body_b);
   if (earlier == later || !isWatched(scene, earlier, later)) return nullptr;
   const SceneBody& a = scene.bodies[earlier];
   const SceneBody& b = scene.bodies[later];
-  if (a.frame == b.frame || isFiltered(scene.rules, a.serial, b.serial) || scene.pairs.find(earlier, later) ||
-      scene.rigid.areJoined(a.frame, b.frame)) {
+  if (isFiltered(scene.rules, a.serial, b.serial) || mayTouch(a, b) || scene.pairs.find(earlier, later) ||
+      areRigid(scene, a, b)) {
     return nullptr;
   }
   return &scene.rules.of(a.pair_class, b.pair_class);
@@ -149,7 +159,9 @@ std::size_t countRuledPairs(const Scene& scene, const std::vector<bool>& left_ou
   std::vector<std::size_t> rigid_set;
   std::unordered_map<std::uint64_t, std::size_t> place;  // by serial
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-    const std::string root = scene.rigid.rootOf(scene.bodies[i].frame);
+    const SceneBody& body = scene.bodies[i];
+    const std::string root =
+        body.carrier == 0 ? scene.rigid.rootOf(body.frame) : "\n" + std::to_string(body.carrier);
     rigid_set.push_back(set_of_root.emplace(root, set_of_root.size()).first->second);
     place.emplace(scene.bodies[i].serial, i);
   }
@@ -190,6 +202,18 @@ std::size_t countRuledPairs(const Scene& scene, const std::vector<bool>& left_ou
     }
   }
   for (const ScenePair& pair : scene.pairs) too_many += is_counted(pair.body_a, pair.body_b) ? 1 : 0;
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    const SceneBody& body = scene.bodies[i];
+    if (!body.attachment) continue;
+    for (const std::uint64_t serial : body.attachment->may_touch) {
+      const auto at = place.find(serial);
+      if (at == place.end() || !is_counted(i, at->second) || scene.pairs.find(i, at->second)) continue;
+      const SceneBody& other = scene.bodies[at->second];
+      const bool is_met_twice =
+          other.attachment && other.attachment->may_touch.count(body.serial) != 0 && at->second < i;
+      if (!is_met_twice && !isFiltered(rules, body.serial, serial)) ++too_many;
+    }
+  }
   return count - too_many;
 }
 

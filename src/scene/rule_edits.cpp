@@ -7,18 +7,12 @@
 #include <utility>
 
 #include "concave_distance/base/error.h"
+#include "equal_settings.h"
 #include "name_pattern.h"
 #include "pair_parameters.h"
 
 namespace concave_distance::detail {
 namespace {
-
-bool haveEqualSettings(const PairSettings& l, const PairSettings& r) {
-  const auto& table = pairParameters();
-  return l.effects == r.effects && std::all_of(table.begin(), table.end(), [&](const auto& parameter) {
-           return parameter.get(l) == parameter.get(r);
-         });
-}
 
 /// What the bodies of one new class have in common.
 struct ClassKey {
@@ -98,6 +92,13 @@ bool appendNames(const Scene& scene, const BodySide& a, const BodySide& b, std::
 }
 
 }  // namespace
+
+bool haveEqualSettings(const PairSettings& l, const PairSettings& r) {
+  const auto& table = pairParameters();
+  return l.effects == r.effects && std::all_of(table.begin(), table.end(), [&](const auto& parameter) {
+           return parameter.get(l) == parameter.get(r);
+         });
+}
 
 void changeRules(Scene& scene, const BodySide& side_a, const BodySide& side_b, const RuleChange& change) {
   std::map<ClassKey, std::uint32_t> classes = {{ClassKey(), 0}};

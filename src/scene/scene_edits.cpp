@@ -47,8 +47,7 @@ void requireRoomForPairs(const Scene& scene, std::size_t more) {
 bool mayBeCreated(const Scene& scene, std::size_t body_a, std::size_t body_b) {
   const SceneBody& a = scene.bodies[body_a];
   const SceneBody& b = scene.bodies[body_b];
-  return !(a.frame == b.frame || scene.rigid.areJoined(a.frame, b.frame) ||
-           (a.is_robot_link && b.is_robot_link));
+  return !areRigid(scene, a, b) && !(a.is_robot_link && b.is_robot_link);
 }
 
 detail::BodySide sideOf(const Scene& scene, const std::vector<std::size_t>& bodies) {
@@ -112,8 +111,18 @@ std::vector<std::string> setGroupsEnabled(Scene& scene, const std::vector<std::s
   return names;
 }
 
-// Returns the names of the pairs of a body.
-std::vector<std::string> pairsOfBody(const Scene& scene, std::size_t body) {
+void requireNothingAttached(const Scene& scene, const SceneBody& gone) {
+  for (const SceneBody& body : scene.bodies) {
+    if (body.attachment && body.attachment->parent_serial == gone.serial) {
+      throw Error("name", "'" + body.name + "' is attached to '" + gone.name + "'",
+                  "detach or remove it first");
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> pairNamesOf(const Scene& scene, std::size_t body) {
   std::vector<std::string> names;
   for (const ScenePair& pair : scene.pairs) {
     if (pair.body_a == body || pair.body_b == body) names.push_back(pair.name);
@@ -123,8 +132,6 @@ std::vector<std::string> pairsOfBody(const Scene& scene, std::size_t body) {
   }
   return names;
 }
-
-}  // namespace
 
 bool isRosName(const std::string& name) {
   constexpr std::size_t kLongest = 200;
@@ -163,6 +170,13 @@ void requireRoomForBody(const Scene& scene) {
 }
 
 AddedPairs addBody(Scene& scene, SceneBody body, const PairPartners& partners, const PairSettings& settings) {
+  AddedPairs added = appendBody(scene, std::move(body), partners, settings);
+  added.names = pairNamesOf(scene, scene.bodies.size() - 1);
+  return added;
+}
+
+AddedPairs appendBody(Scene& scene, SceneBody body, const PairPartners& partners,
+                      const PairSettings& settings) {
   requireRoomForBody(scene);
   if (!isRosName(body.name)) {
     throw Error("name", "'" + body.name + "' cannot be part of a topic name",
@@ -170,6 +184,9 @@ AddedPairs addBody(Scene& scene, SceneBody body, const PairPartners& partners, c
   }
   if (scene.findBody(body.name)) {
     throw Error("name", "there is a body '" + body.name + "' already", "remove_body it first");
+  }
+  if (scene.groups.count(body.name) != 0) {
+    throw Error("name", "there is a group '" + body.name + "'", "give the body another name");
   }
   AddedPairs added;
   const Partners found = partnersOf(scene, body, partners, added);
@@ -184,17 +201,22 @@ AddedPairs addBody(Scene& scene, SceneBody body, const PairPartners& partners, c
   for (const std::size_t partner : found.named) {
     appendPair(scene, scene.bodies.size() - 1, partner, settings);
   }
-  added.names = pairsOfBody(scene, scene.bodies.size() - 1);
   return added;
 }
 
 std::vector<std::string> removeBody(Scene& scene, const std::string& name, bool allow_robot_link) {
+  std::vector<std::string> names = pairNamesOf(scene, requireBody(scene, name));
+  takeOutBody(scene, name, allow_robot_link);
+  return names;
+}
+
+void takeOutBody(Scene& scene, const std::string& name, bool allow_robot_link) {
   const std::size_t gone = requireBody(scene, name);
   if (scene.bodies[gone].is_robot_link && !allow_robot_link) {
     throw Error("name", "'" + name + "' is a link of a robot",
                 "set allow_robot_link to remove it anyway, or switch its pairs off with set_pair_enabled");
   }
-  std::vector<std::string> names = pairsOfBody(scene, gone);
+  requireNothingAttached(scene, scene.bodies[gone]);
   PairList kept;
   for (std::size_t index = 0; index < scene.pairs.size(); ++index) {
     const ScenePair& pair = scene.pairs[index];
@@ -217,7 +239,6 @@ std::vector<std::string> removeBody(Scene& scene, const std::string& name, bool 
   scene.pairs = std::move(kept);
   scene.bodies = std::move(bodies);
   detail::takeOutEmptyClasses(scene);
-  return names;
 }
 
 std::vector<std::string> setPairEnabled(Scene& scene, const PairReference& reference, bool enabled,

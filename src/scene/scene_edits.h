@@ -17,13 +17,23 @@ void requireRoomForBody(const Scene& scene);
 
 /// Adds a body and its pairs with its partners: those that are named by themselves are listed, the rule of
 /// the body gives the others.
-/// @throws Error when the name is taken or not a ROS name, when a partner is unknown or the body itself, or
+/// @throws Error when a body or a group has the name or it is not a ROS name, when a partner is unknown or
+/// the body itself, or
 ///         when the scene would exceed its limits
 AddedPairs addBody(Scene& scene, SceneBody body, const PairPartners& partners, const PairSettings& settings);
+/// The same without the names of its pairs.
+AddedPairs appendBody(Scene& scene, SceneBody body, const PairPartners& partners,
+                      const PairSettings& settings);
 
 /// @param allow_robot_link false: a link of a robot is refused
-/// @return names of the pairs removed with it. @throws Error when there is no such body
+/// @return names of the pairs removed with it. @throws Error when there is no such body, or when another one
+///         is attached to it
 std::vector<std::string> removeBody(Scene& scene, const std::string& name, bool allow_robot_link = false);
+/// The same without the names of its pairs.
+void takeOutBody(Scene& scene, const std::string& name, bool allow_robot_link);
+
+/// Returns the names of the pairs of a body, 1000 at most of those by rule.
+std::vector<std::string> pairNamesOf(const Scene& scene, std::size_t body);
 
 /// Names the pairs of a request: by a name or a pattern or, when that is empty, by the bodies of both sides
 /// in either order, each a body, a group or a pattern.

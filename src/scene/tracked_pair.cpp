@@ -12,6 +12,10 @@ namespace {
 
 constexpr double kLeastExpected = 1e-4;  // s that a pair is expected to take after its first cycles
 
+bool isPlacedAnew(const SceneBody& before, const SceneBody& now) {
+  return before.frame != now.frame || before.frame_from_body.matrix() != now.frame_from_body.matrix();
+}
+
 }  // namespace
 
 TrackedPair::TrackedPair(const Scene& scene, std::size_t index, std::uint64_t first_id)
@@ -184,6 +188,8 @@ void TrackedPair::discard() {
 void TrackedPair::adopt(std::shared_ptr<const ScenePair> pair, std::shared_ptr<const SceneBody> a,
                         std::shared_ptr<const SceneBody> b, bool settings_changed) {
   const double margin = settings.tracker.margin();
+  // The edit may have placed one anew, at the time of the last answer.
+  must_solve_ = must_solve_ || isPlacedAnew(*body_a, *a) || isPlacedAnew(*body_b, *b);
   origin = std::move(pair);
   body_a = std::move(a);
   body_b = std::move(b);

@@ -3,6 +3,7 @@
 
 #include <limits>
 
+#include "base/constants.h"
 #include "concave_distance/search/prepare_search.h"
 #include "scene/body_pool.h"
 #include "search/grid/body_grid.h"
@@ -303,6 +304,63 @@ TEST_F(SceneLoading, SingleBodyWithAMeshIsPlacedInItsFrame) {
   EXPECT_NEAR(test::signedVolume(body.mesh->surface()), 1.0, 1e-9);
 }
 
+TriangleSoup tetrahedron() {
+  return {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}};
+}
+
+TEST_F(SceneLoading, SingleBodyOfSeveralShapesHasAllOfThemAsShells) {
+  BodyDescription description = box("tool");
+  BodyShape cone;
+  cone.primitive = "cone";
+  cone.dimensions = {0.5, 2.0};
+  cone.frame_from_geometry.translation().z() = 9.0;
+  BodyShape given;
+  given.triangles = std::make_shared<const TriangleSoup>(tetrahedron());
+  given.frame_from_geometry.translation().x() = 5.0;
+  description.other_shapes = {cone, given};
+  const SceneBody body = loadBody(description, "", nullptr);
+  EXPECT_EQ(body.mesh->topology().shell_is_closed, std::vector<bool>(3, true));
+  const double cone_volume = 0.25 * kPi * 2.0 / 3.0;
+  EXPECT_NEAR(test::signedVolume(body.mesh->surface()), 6.0 + 1.0 / 6.0 + cone_volume, 0.02 * cone_volume);
+  EXPECT_NEAR(body.mesh->surface().boundingBox().max().x(), 6.0, 1e-12);
+  EXPECT_NEAR(body.mesh->surface().boundingBox().max().z(), 10.0, 1e-12);
+}
+
+TEST_F(SceneLoading, BodiesOfGivenTrianglesAreRefusedOneByOne) {
+  BodyDescription good = box("good");
+  BodyDescription given;
+  given.name = "given";
+  given.frame = "world";
+  const auto with = [&](const TriangleSoup& soup) {
+    given.triangles = std::make_shared<const TriangleSoup>(soup);
+    return given;
+  };
+  TriangleSoup no_corner = tetrahedron();
+  no_corner.triangles[0][0] = 4;
+  TriangleSoup no_number = tetrahedron();
+  no_number.vertices[0].x() = std::numeric_limits<double>::quiet_NaN();
+  TriangleSoup many = tetrahedron();
+  for (int doubling = 0; doubling < 4; ++doubling) {
+    many.triangles.insert(many.triangles.end(), many.triangles.begin(), many.triangles.end());
+  }
+  SceneLimits limits;
+  limits.triangles = 60;
+  const std::vector<LoadedBody> loaded =
+      loadBodies({good, with(tetrahedron()), with({}), with(no_corner), with(no_number), with(many)}, "",
+                 nullptr, nullptr, nullptr, limits);
+  ASSERT_EQ(loaded.size(), 6U);
+  EXPECT_TRUE(loaded[0].body && !loaded[0].problem);
+  EXPECT_TRUE(loaded[1].body && !loaded[1].problem);
+  const std::vector<std::string> parts = {"the mesh has no triangle", "vertex", "vertex", "64 triangles"};
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    ASSERT_TRUE(loaded[i + 2].problem) << parts[i];
+    EXPECT_TRUE(mentions(loaded[i + 2].problem->what(), "body 'given'"));
+    EXPECT_TRUE(mentions(loaded[i + 2].problem->what(), parts[i])) << loaded[i + 2].problem->what();
+  }
+  given.primitive = "box";
+  EXPECT_TRUE(mentions(bodyRefusal(with(tetrahedron())), "both a mesh and a primitive"));
+}
+
 TEST_F(SceneLoading, SingleBodyThatCannotBeLoadedIsRefusedByName) {
   BodyDescription description = box("crate");
   description.dimensions = {1.0, 2.0};
@@ -310,8 +368,8 @@ TEST_F(SceneLoading, SingleBodyThatCannotBeLoadedIsRefusedByName) {
   EXPECT_TRUE(mentions(bodyRefusal(description), "a box with 2 dimensions"));
   description.dimensions = {1.0, 2.0, -3.0};
   EXPECT_TRUE(mentions(bodyRefusal(description), "body 'crate'"));
-  description.primitive = "cone";
-  EXPECT_TRUE(mentions(bodyRefusal(description), "primitive 'cone' is not known"));
+  description.primitive = "torus";
+  EXPECT_TRUE(mentions(bodyRefusal(description), "primitive 'torus' is not known"));
   description.primitive = "";
   EXPECT_TRUE(mentions(bodyRefusal(description), "file name is empty"));
   description.mesh_resource = "package://gone/a.stl";

@@ -5,10 +5,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "concave_distance/base/error.h"
 #include "concave_distance/loading/mesh_roots.h"
 #include "concave_distance/loading/resource_locator.h"
 #include "concave_distance/scene/scene.h"
@@ -87,19 +89,38 @@ std::vector<std::string> descriptionsOfSceneFile(const std::string& path);
 [[nodiscard]] Scene loadRobotScene(const std::string& urdf, const std::string& where,
                                    const SceneLoadOptions& options);
 
-/// One body from a mesh file or primitive given by the fields below, as the scene file's `bodies` entries.
-struct BodyDescription {
-  std::string name;
-  std::string frame;
+/// One shape of a body.
+struct BodyShape {
   std::string mesh_resource;  ///< either this ...
   Eigen::Vector3d scale = Eigen::Vector3d::Ones();
   std::string primitive;           ///< ... or a primitive's name with its `dimensions`
   std::vector<double> dimensions;  ///< metres, in the order of srv/AddBody.srv
   Eigen::Isometry3d frame_from_geometry = Eigen::Isometry3d::Identity();
+  std::shared_ptr<const TriangleSoup> triangles;  ///< ... or these, metres
+};
+
+/// One body, as the scene file's `bodies` entries: of the shape that the inherited fields give, and more.
+struct BodyDescription : BodyShape {
+  std::string name;
+  std::string frame;
+  std::vector<BodyShape> other_shapes;  ///< of the same body
   std::optional<double> max_edge_length;
-  std::optional<double> chord_error;  ///< metres; empty: 1 % of the radius
+  std::optional<double> chord_error;  ///< metres; empty: 1 % of each radius
   MeshAccess mesh_access;             ///< which mesh files may be read, and the limits for it
 };
+/// A body, or why there is none.
+struct LoadedBody {
+  std::optional<SceneBody> body;
+  std::optional<Error> problem;
+};
+/// Loads bodies as a scene does, in parallel; one result for each, in their order. The parameters are those
+/// of loadBody().
+[[nodiscard]] std::vector<LoadedBody> loadBodies(const std::vector<BodyDescription>& descriptions,
+                                                 const std::string& base_folder,
+                                                 const PackageLocator& package_locator,
+                                                 const std::shared_ptr<BodyPool>& pool,
+                                                 const PreparationCachePointer& cache,
+                                                 const SceneLimits& limits);
 /// Loads one body as a scene does.
 /// @param pool of its scene; nullptr: a new one
 /// @param cache as SceneLoadOptions::cache

@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <unordered_set>
 #include <utility>
 #include <vector>
 
@@ -31,10 +32,26 @@ class BodyPool;
 /// Returns a number that no body has had yet.
 std::uint64_t newBodySerial();
 
-/// One rigid piece of a scene. Its frame is a tf frame; the mesh is expressed in it.
+/// Says what a body is attached to, and what it may touch as long as it is.
+struct Attachment {
+  std::string parent;               ///< name of a body, or of a tf frame that no body has
+  std::uint64_t parent_serial = 0;  ///< SceneBody::serial of the parent; 0: a frame
+  Eigen::Isometry3d parent_from_body = Eigen::Isometry3d::Identity();
+  std::unordered_set<std::uint64_t> may_touch;  ///< SceneBody::serial: no rule watches it against these
+  std::vector<std::string> switched_off;        ///< listed pairs that detaching switches on again
+  std::uint64_t carrier_before = 0;             ///< SceneBody::carrier that detaching gives back
+};
+
+/// One rigid piece of a scene. Its frame is a tf frame, in which it stands still unless edits move it; the
+/// mesh is expressed in the body's own frame, which is `frame_from_body` in that one.
 struct SceneBody {
   std::string name;   ///< unique in the scene; a robot's link is `<prefix><link>`
-  std::string frame;  ///< tf frame the body is fixed to
+  std::string frame;  ///< tf frame
+  Eigen::Isometry3d frame_from_body = Eigen::Isometry3d::Identity();
+  /// SceneBody::serial of the body whose edits move this one: itself, or what it is attached to; 0: none, and
+  /// only tf moves it.
+  std::uint64_t carrier = 0;
+  std::shared_ptr<const Attachment> attachment;  ///< nullptr: none
   std::shared_ptr<const BodyMesh> mesh;
   BodyBounds bounds;  ///< of the mesh's surface, without the margin
   /// Metres that its surface is moved out by for distances and niches, not for contacts (TrackerParameters).

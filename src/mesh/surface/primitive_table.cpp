@@ -41,6 +41,13 @@ const std::vector<Primitive>& primitives() {
        [](const Lengths& d, double chord_error, const std::string& where) {
          return makeCapsule(d[0], d[1], chord_error, where);
        }},
+      {"cone",
+       {{"radius", 1}, {"length", 1}},
+       true,
+       std::nullopt,
+       [](const Lengths& d, double chord_error, const std::string& where) {
+         return makeCone(d[0], d[1], chord_error, where);
+       }},
   };
   return table;
 }

@@ -169,6 +169,19 @@ std::uint32_t circleCorners(double radius, double chord_error, const std::string
   return 4 * quarter;
 }
 
+/// Rings of a disc that faces down, its centre first, the circle last. Their corners are halved from ring to
+/// ring inwards, a ring's width being one of its edges: a plain fan would be all slivers.
+std::vector<Ring> lowerCap(double radius, double chord_error, const std::string& where) {
+  std::vector<Ring> cap{{0.0, radius, circleCorners(radius, chord_error, where)}};
+  while (cap.back().count > 8) {
+    const Ring& outer = cap.back();
+    cap.push_back({0.0, outer.radius * (1.0 - 2.0 * kPi / outer.count), 4 * ((outer.count + 7) / 8)});
+  }
+  cap.push_back({0.0, 0.0, 1});
+  std::reverse(cap.begin(), cap.end());
+  return cap;
+}
+
 }  // namespace
 
 SurfaceMesh makeBox(const Eigen::Vector3d& size, const std::string& where) {
@@ -202,16 +215,17 @@ SurfaceMesh makeCylinder(double radius, double length, double chord_error, const
   requirePositive(radius, "the radius", where);
   requirePositive(length, "the length", where);
   requirePositive(chord_error, "the chord error", where);
-  // A cap halves its corners from ring to ring inwards, a ring's width being one of its edges: a plain fan
-  // would be all slivers.
-  std::vector<Ring> cap{{0.0, radius, circleCorners(radius, chord_error, where)}};
-  while (cap.back().count > 8) {
-    const Ring& outer = cap.back();
-    cap.push_back({0.0, outer.radius * (1.0 - 2.0 * kPi / outer.count), 4 * ((outer.count + 7) / 8)});
-  }
-  cap.push_back({0.0, 0.0, 1});
-  std::reverse(cap.begin(), cap.end());
-  return joinRings(mirrorUp(std::move(cap), 0.5 * length), where);
+  return joinRings(mirrorUp(lowerCap(radius, chord_error, where), 0.5 * length), where);
+}
+
+SurfaceMesh makeCone(double radius, double length, double chord_error, const std::string& where) {
+  requirePositive(radius, "the radius", where);
+  requirePositive(length, "the length", where);
+  requirePositive(chord_error, "the chord error", where);
+  std::vector<Ring> rings = lowerCap(radius, chord_error, where);
+  for (Ring& ring : rings) ring.z = -0.5 * length;
+  rings.push_back({0.5 * length, 0.0, 1});
+  return joinRings(rings, where);
 }
 
 SurfaceMesh makeCapsule(double radius, double length, double chord_error, const std::string& where) {

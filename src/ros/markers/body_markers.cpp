@@ -83,6 +83,7 @@ visualization_msgs::Marker bodyMarker(const Scene& scene, std::size_t index, con
   std_msgs::Header header;
   header.frame_id = body.frame;
   visualization_msgs::Marker marker = emptyMarker(header, ns, static_cast<std::int32_t>(index));
+  marker.pose = toPose(body.frame_from_body);
   marker.frame_locked = 1;
   marker.color = color;
   drawSurface(body.mesh->surface(), offset, marker);

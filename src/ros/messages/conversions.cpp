@@ -66,6 +66,13 @@ geometry_msgs::Quaternion toQuaternion(const Eigen::Quaterniond& rotation) {
   return tf2::toMsg(rotation);
 }
 
+geometry_msgs::Pose toPose(const Eigen::Isometry3d& pose) {
+  geometry_msgs::Pose message;
+  message.position = toPoint(pose.translation());
+  message.orientation = toQuaternion(Eigen::Quaterniond(pose.linear()));
+  return message;
+}
+
 geometry_msgs::Wrench toWrench(const Wrench& wrench) {
   geometry_msgs::Wrench message;
   message.force = toVector(wrench.force);
@@ -255,6 +262,8 @@ BodyInfo toBodyInfo(const SceneBody& body) {
   message.in_robot_model = static_cast<std::uint8_t>(body.in_robot_model);
   message.repair = body.repair.summary();
   message.margin = body.margin;
+  message.pose = toPose(body.frame_from_body);
+  if (body.attachment) message.attached_to = body.attachment->parent;
   return message;
 }
 

@@ -5,6 +5,7 @@
 #include <concave_distance/PairInfo.h>
 #include <concave_distance/PairNiches.h>
 #include <concave_distance/PairStatus.h>
+#include <geometry_msgs/Pose.h>
 #include <geometry_msgs/Wrench.h>
 
 #include <Eigen/Geometry>
@@ -20,6 +21,7 @@ namespace concave_distance {
 geometry_msgs::Point toPoint(const Eigen::Vector3d& point);
 geometry_msgs::Vector3 toVector(const Eigen::Vector3d& vector);
 geometry_msgs::Quaternion toQuaternion(const Eigen::Quaterniond& rotation);
+geometry_msgs::Pose toPose(const Eigen::Isometry3d& pose);
 geometry_msgs::Wrench toWrench(const Wrench& wrench);
 
 PairStatus toStatus(SolveStatus status);

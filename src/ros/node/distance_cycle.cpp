@@ -38,15 +38,23 @@ void DistanceCycle::setScene(const Scene& scene, bool settings_changed) {
     next[index] = std::make_unique<PublishedPair>(scene, scene.pairs[index], options_.reference_frame);
   }
   std::vector<std::string> body_frames;
-  for (const SceneBody& body : scene.bodies) body_frames.push_back(body.frame);
-  auto frames = std::make_unique<FramePoses>();
-  frames->setFrames(options_.reference_frame, body_frames, frames_->epoch());
+  std::vector<Eigen::Isometry3d> body_places;
+  for (const SceneBody& body : scene.bodies) {
+    body_frames.push_back(body.frame);
+    body_places.push_back(body.frame_from_body);
+  }
+  std::unique_ptr<FramePoses> frames;
+  if (!frames_->hasFrames(options_.reference_frame, body_frames)) {
+    frames = std::make_unique<FramePoses>();
+    frames->setFrames(options_.reference_frame, body_frames, frames_->epoch());
+  }
   retired_.reserve(retired_.size() + pairs_.size());
   spare_.reserve(spare_.size() + pairs_.size());
   tracker_.setScene(scene, settings_changed);
 
   // Nothing below allocates: from here on it is the new scene that is followed.
-  frames_ = std::move(frames);
+  if (frames) frames_ = std::move(frames);
+  frames_->setPlaces(std::move(body_places));
   for (std::size_t index = 0; index < places.size(); ++index) {
     if (!next[index]) next[index] = std::move(pairs_[*places[index]]);
     next[index]->tracked = tracker_.pairs()[index];

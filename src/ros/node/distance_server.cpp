@@ -67,8 +67,10 @@ DistanceServer::DistanceServer(const ros::NodeHandle& node, const ros::NodeHandl
           service_queues_, keeper_,
           {&transforms_, parameters_.reference_frame, parameters_.transform_timeout, parameters_.stale_after},
           parameters_.limits, parameters_.threads),
-      scene_services_(service_queues_, keeper_, restarts_, transforms_, parameters_.reference_frame,
-                      rosPackagePath, parameters_.mesh_access),
+      scene_services_(service_queues_, keeper_, restarts_, parameters_.reference_frame),
+      operation_services_(service_queues_, keeper_, transforms_, parameters_.reference_frame, rosPackagePath,
+                          parameters_.mesh_access),
+      moves_(service_queues_, keeper_, transforms_, parameters_.reference_frame),
       runner_(transforms_, keeper_, publishers_, restarts_,
               {parameters_.reference_frame, parameters_.stale_after, parameters_.threads,
                &service_queues_.gate().stopped(), true},
@@ -203,6 +205,9 @@ void DistanceServer::setUpDiagnostics() {
   });
   updater_.add("transforms", [this](diagnostic_updater::DiagnosticStatusWrapper& status) {
     describeTransforms(receiver_.take(), status);
+  });
+  updater_.add("moves", [this](diagnostic_updater::DiagnosticStatusWrapper& status) {
+    describeMoves(moves_.take(), status);
   });
   diagnostics_timer_ = startTimer(parameters_.diagnostic_period, "Publishing diagnostics",
                                   &DistanceServer::publishDiagnostics);

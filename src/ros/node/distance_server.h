@@ -17,6 +17,8 @@
 #include "cycle_runner.h"
 #include "node_parameters.h"
 #include "ros/services/distance_queries.h"
+#include "ros/services/move_receiver.h"
+#include "ros/services/operation_services.h"
 #include "ros/services/scene_services.h"
 #include "ros/tf/transform_buffer.h"
 #include "ros/tf/transform_receiver.h"
@@ -77,6 +79,8 @@ class DistanceServer {
   ServiceQueues service_queues_;
   DistanceQueries queries_;
   SceneServices scene_services_;
+  OperationServices operation_services_;
+  MoveReceiver moves_;
   CycleRunner runner_;
   diagnostic_updater::Updater updater_;
   CycleWindow window_;  ///< of the diagnostics being published

@@ -51,7 +51,7 @@ ParameterTable<N> ofTheScene() {
           "cache ([what is kept](preparation_cache.md))"),
       list<N>(
           "mesh_roots", "a list of texts", [](auto& n) -> auto& { return n.mesh_roots; },
-          "where `add_body` may read mesh files: `package://` (every package), `package://<package>`, "
+          "where `add_body` and `apply_scene` may read mesh files: `package://` (every package), `package://<package>`, "
           "absolute "
           "folders; `[]`: nowhere; unset: every package and the scene file's folder ([who may do "
           "what](security.md#mesh-files))"),
@@ -199,7 +199,7 @@ ParameterTable<L> ofRequests() {
   return {
       count<L>(
           "service_threads", [](auto& l) -> auto& { return l.service_threads; },
-          "calls of `get_distance`, `get_distances` and `add_body` that run at one time")
+          "calls of `get_distance`, `get_distances`, `add_body` and `apply_scene` that run at one time")
           .from(1.0)
           .to(64.0),
       count<L>(

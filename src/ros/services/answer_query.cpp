@@ -32,7 +32,7 @@ struct BodyPlace {
 BodyPlace placeOf(const SceneBody& body, bool use_pose, const geometry_msgs::PoseStamped& pose,
                   const std::string& reference_frame, const std::string& where) {
   if (!use_pose) {
-    return {body.frame, Eigen::Isometry3d::Identity()};
+    return {body.frame, body.frame_from_body};
   }
   const std::string& frame = pose.header.frame_id;
   return {frame.empty() ? reference_frame : requireFrameName(frame, where + ".header.frame_id"),

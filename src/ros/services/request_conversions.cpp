@@ -17,12 +17,12 @@ void checkFinite(double value, const std::string& where) {
   }
 }
 
+}  // namespace
+
 Eigen::Vector3d scaleFromMessage(const geometry_msgs::Vector3& scale) {
   const Eigen::Vector3d given(scale.x, scale.y, scale.z);
   return given.isZero(0.0) ? Eigen::Vector3d::Ones() : given;
 }
-
-}  // namespace
 
 Eigen::Isometry3d poseFromMessage(const geometry_msgs::Pose& pose, const std::string& where) {
   for (const double value : {pose.position.x, pose.position.y, pose.position.z}) {

@@ -3,6 +3,7 @@
 #include <concave_distance/AddBody.h>
 #include <concave_distance/DistanceQuery.h>
 #include <geometry_msgs/Pose.h>
+#include <geometry_msgs/Vector3.h>
 
 #include <Eigen/Geometry>
 #include <string>
@@ -15,6 +16,9 @@ namespace concave_distance {
 /// @throws Error (naming `where`) for a NaN or infinite number and for a quaternion whose norm differs from 1
 ///         by more than 1e-3; a smaller difference is normalised away
 Eigen::Isometry3d poseFromMessage(const geometry_msgs::Pose& pose, const std::string& where);
+
+/// Returns the factors of a mesh; all 0, as not filled in: ones.
+Eigen::Vector3d scaleFromMessage(const geometry_msgs::Vector3& scale);
 
 /// The pair's settings with what the query asks for instead.
 /// @throws Error for a level that is none, for a tolerance or time budget that is out of range or that the

@@ -29,8 +29,15 @@ void FramePoses::setFrames(const std::string& reference, const std::vector<std::
     if (is_new) frames_.push_back(frame);
     place_of_body_.push_back(at->second);
   }
+  frame_from_body_.assign(frames.size(), Eigen::Isometry3d::Identity());
   places_.assign(frames_.size(), FramePlace());
   is_whole_ = false;
+}
+
+bool FramePoses::hasFrames(const std::string& reference, const std::vector<std::string>& frames) const {
+  return reference == reference_ && frames.size() == place_of_body_.size() &&
+         std::equal(frames.begin(), frames.end(), place_of_body_.begin(),
+                    [&](const std::string& frame, std::size_t place) { return frame == frames_[place]; });
 }
 
 void FramePoses::update(const tf2::BufferCore& buffer, ros::Time now, double stale_after) {
@@ -172,12 +179,15 @@ void FramePoses::fillPoses(ros::Time now) {
         poses_.oldest[body] = static_cast<std::int32_t>(time) + 1;
         break;
       }
-      poses_.poses[body * poses_.stride() + time] = between(reference_node_, node, time);
+      poses_.poses[body * poses_.stride() + time] =
+          between(reference_node_, node, time) * frame_from_body_[body];
       if (time == 0) break;
     }
   }
   poses_.relative = [this](std::size_t a, std::size_t b, std::size_t time) {
-    return between(node_of_frame_[place_of_body_[a]], node_of_frame_[place_of_body_[b]], time);
+    const Eigen::Isometry3d frame_a_from_frame_b =
+        between(node_of_frame_[place_of_body_[a]], node_of_frame_[place_of_body_[b]], time);
+    return frame_from_body_[a].inverse(Eigen::Isometry) * frame_a_from_frame_b * frame_from_body_[b];
   };
 }
 

@@ -10,6 +10,7 @@
 #include <limits>
 #include <string>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "concave_distance/scene/body_poses.h"
@@ -32,10 +33,15 @@ class FramePoses {
  public:
   static constexpr std::size_t kMostTimes = 4;
 
+  /// The bodies then are at the origins of their frames.
   /// @param frames of the bodies, in their order
   /// @param epoch that poses() counts its seconds from; zero: the first update()
   void setFrames(const std::string& reference, const std::vector<std::string>& frames, ros::Time epoch);
   ros::Time epoch() const { return epoch_; }
+  /// Returns whether these are the frames; setFrames() need not be called again then.
+  bool hasFrames(const std::string& reference, const std::vector<std::string>& frames) const;
+  /// Says where the bodies are in their frames, from the next update() on: frame_from_body, in their order.
+  void setPlaces(std::vector<Eigen::Isometry3d> places) { frame_from_body_ = std::move(places); }
   /// A frame whose newest time is older than `stale_after` seconds is Stale, and unknown to poses(). One that
   /// is ahead of `now` is taken at `now`, where tf has that.
   void update(const tf2::BufferCore& buffer, ros::Time now, double stale_after);
@@ -75,6 +81,7 @@ class FramePoses {
   std::string reference_;
   std::vector<std::string> frames_;         ///< each once
   std::vector<std::size_t> place_of_body_;  ///< in frames_
+  std::vector<Eigen::Isometry3d> frame_from_body_;
   std::vector<Node> nodes_;
   std::unordered_map<std::string, std::size_t> node_of_;
   std::size_t reference_node_ = kNone;

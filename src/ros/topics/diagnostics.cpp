@@ -94,6 +94,19 @@ void describeTransforms(const TransformReport& report, diagnostic_updater::Diagn
   status.add("last refusal", report.last_refusal);
 }
 
+void describeMoves(const MoveReport& report, diagnostic_updater::DiagnosticStatusWrapper& status) {
+  if (report.refused > 0) {
+    status.summaryf(DiagnosticStatus::WARN, "%llu moves were refused; the last: %s",
+                    static_cast<unsigned long long>(report.refused), report.last_refusal.c_str());
+  } else {
+    status.summary(DiagnosticStatus::OK, "no move was refused");
+  }
+  status.add("moves taken", report.taken);
+  status.add("moves refused", report.refused);
+  status.add("moves refused since the start", report.refused_in_all);
+  status.add("last refusal", report.last_refusal);
+}
+
 void describeEffects(const CycleWindow& window, diagnostic_updater::DiagnosticStatusWrapper& status) {
   const auto& runs = window.total.effects.runs;
   const bool ran = std::any_of(runs.begin(), runs.end(), [](std::uint64_t count) { return count > 0; });

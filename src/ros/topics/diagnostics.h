@@ -5,6 +5,7 @@
 #include <string>
 
 #include "concave_distance/scene/scene.h"
+#include "move_report.h"
 #include "ros/tf/transform_receiver.h"
 #include "scene/cycle_statistics.h"
 
@@ -18,6 +19,8 @@ void describeCycle(const CycleWindow& window, double wanted_rate,
 void describePairs(const CycleWindow& window, diagnostic_updater::DiagnosticStatusWrapper& status);
 /// Frames known and transforms refused (WARN, with the last one's sender and reason).
 void describeTransforms(const TransformReport& report, diagnostic_updater::DiagnosticStatusWrapper& status);
+/// Moves taken from scene_moves, and those refused (WARN, with the last one's body and reason).
+void describeMoves(const MoveReport& report, diagnostic_updater::DiagnosticStatusWrapper& status);
 /// Reports how often each stage of the pairs' effects ran and its share of the cycles' processor time.
 void describeEffects(const CycleWindow& window, diagnostic_updater::DiagnosticStatusWrapper& status);
 /// Bodies, pairs and what could not be loaded (WARN), or what is waited for (WARN).

@@ -21,19 +21,19 @@ void SceneStore::replace(Scene scene) {
   serve(std::move(scene), true);
 }
 
-void SceneStore::edit(const std::function<void(Scene&)>& change) {
-  apply(change, false);
+std::uint64_t SceneStore::edit(const std::function<void(Scene&)>& change) {
+  return apply(change, false);
 }
 
 void SceneStore::editSettings(const std::function<void(Scene&)>& change) {
   apply(change, true);
 }
 
-void SceneStore::apply(const std::function<void(Scene&)>& change, bool settings_changed) {
+std::uint64_t SceneStore::apply(const std::function<void(Scene&)>& change, bool settings_changed) {
   const std::lock_guard<std::mutex> edit_lock(edit_mutex_);
   Scene edited = *served()->scene;
   change(edited);
-  serve(std::move(edited), settings_changed);
+  return serve(std::move(edited), settings_changed);
 }
 
 void SceneStore::changeSettings(const std::function<void(PairSettings&)>& change) {
@@ -57,13 +57,14 @@ void SceneStore::setWaitingFor(const std::string& what) {
   waiting_for_ = what;
 }
 
-void SceneStore::serve(Scene scene, bool settings_changed) {
+std::uint64_t SceneStore::serve(Scene scene, bool settings_changed) {
   const std::shared_ptr<const ServedScene> before = served();
-  const std::uint64_t revision = (before ? before->settings_revision : 0) + (settings_changed ? 1 : 0);
   std::shared_ptr<const ServedScene> next =
-      publishers_.serve(std::move(scene), before.get(), style_, revision);
+      publishers_.serve(std::move(scene), before.get(), style_, settings_changed);
+  const std::uint64_t revision = next->revision;
   const std::lock_guard<std::mutex> lock(mutex_);
   served_ = std::move(next);
+  return revision;
 }
 
 }  // namespace concave_distance

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -23,7 +24,8 @@ class SceneStore {
   /// Applies `change` to a copy and serves that; when `change` throws, nothing has happened. It leaves the
   /// settings of pairs that are there as they are: such pairs are tracked on, untouched. Pairs that it
   /// creates get the defaults of the scene that it is given; those read before the edit may be old by now.
-  void edit(const std::function<void(Scene&)>& change);
+  /// @return the revision of the scene that is served then
+  std::uint64_t edit(const std::function<void(Scene&)>& change);
   /// The same for a change of pairs' settings.
   void editSettings(const std::function<void(Scene&)>& change);
   /// Applies `change` to every pair and to the scene's defaults.
@@ -34,8 +36,8 @@ class SceneStore {
   void setWaitingFor(const std::string& what);
 
  private:
-  void apply(const std::function<void(Scene&)>& change, bool settings_changed);
-  void serve(Scene scene, bool settings_changed);
+  std::uint64_t apply(const std::function<void(Scene&)>& change, bool settings_changed);
+  std::uint64_t serve(Scene scene, bool settings_changed);
 
   TopicPublishers& publishers_;
   MarkerStyle style_;

@@ -120,11 +120,13 @@ TopicPublishers::TopicPublishers(const ros::NodeHandle& node, std::string refere
 TopicPublishers::~TopicPublishers() = default;
 
 std::shared_ptr<const ServedScene> TopicPublishers::serve(Scene scene, const ServedScene* before,
-                                                          const MarkerStyle& style,
-                                                          std::uint64_t settings_revision) {
+                                                          const MarkerStyle& style, bool settings_changed) {
   pair_topics_.listPairs(scene);
   auto served = std::make_shared<ServedScene>();
-  served->settings_revision = settings_revision;
+  if (before != nullptr) {
+    served->settings_revision = before->settings_revision + (settings_changed ? 1 : 0);
+    served->revision = before->revision + 1;
+  }
   served->scene = std::make_shared<const Scene>(std::move(scene));
   served->marker_style = style;
   static const PairTopicList kNoTopics;
@@ -212,7 +214,7 @@ PublishReport TopicPublishers::publish(const ServedScene& served, const Publishe
   if (markers_due_) {
     report.markers = static_cast<std::uint32_t>(publishMarkers(served, pairs, marker_lifetime, now));
   }
-  publishLists(pairs, others, now);
+  publishLists(served, pairs, others, now);
   const ros::Time end = ros::Time::now();
   for (const auto& pair : pairs) {
     if (pair->demand().due && pair->tracked->solved() && !pair->tracked->repeated &&
@@ -285,9 +287,11 @@ void TopicPublishers::publishNearest(const PublishedPairs& pairs, const OtherPai
   nearest_.publish(message);
 }
 
-void TopicPublishers::publishLists(const PublishedPairs& pairs, const OtherPairs& others, ros::Time now) {
+void TopicPublishers::publishLists(const ServedScene& served, const PublishedPairs& pairs,
+                                   const OtherPairs& others, ros::Time now) {
   if (distances_wanted_) {
     auto message = boost::make_shared<Distances>();
+    message->scene_revision = served.revision;
     countOthers(pairs, others, *message);
     message->header = commonHeader(messages_, now, reference_frame_);
     message->pairs.reserve(messages_.size());

@@ -28,6 +28,7 @@ struct ServedScene {
   PairTopicList topics;                 ///< one per scene->pairs: only listed pairs have topics
   MarkerStyle marker_style;             ///< as configured
   std::uint64_t settings_revision = 0;  ///< another one: the settings of pairs that were there have changed
+  std::uint64_t revision = 0;           ///< another one: another scene
 };
 
 /// Counts what was built and sent in one cycle.
@@ -56,8 +57,9 @@ class TopicPublishers {
   /// Advertises the topics of pairs that have none yet; those of pairs that are gone end with the last
   /// ServedScene that names them. Not from the cycle's thread: it talks to the master.
   /// Pairs that have topics of their own are listed in the scene.
+  /// @param settings_changed as ServedScene::settings_revision
   std::shared_ptr<const ServedScene> serve(Scene scene, const ServedScene* before, const MarkerStyle& style,
-                                           std::uint64_t settings_revision);
+                                           bool settings_changed);
 
   /// Reads who listens, for the cycle that follows.
   void readDemand(const ServedScene& served, const MarkerOptions& markers);
@@ -81,7 +83,8 @@ class TopicPublishers {
   /// @return how many markers
   std::size_t publishMarkers(const ServedScene& served, const PublishedPairs& pairs, double lifetime,
                              ros::Time now);
-  void publishLists(const PublishedPairs& pairs, const OtherPairs& others, ros::Time now);
+  void publishLists(const ServedScene& served, const PublishedPairs& pairs, const OtherPairs& others,
+                    ros::Time now);
   void publishNearest(const PublishedPairs& pairs, const OtherPairs& others, ros::Time now);
   void publishContacts(const ServedScene& served, const PublishedPairs& pairs, ros::Time now);
 

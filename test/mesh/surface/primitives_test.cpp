@@ -89,6 +89,24 @@ Solid capsule(double radius, double length, double chord_error) {
           }};
 }
 
+Solid cone(double radius, double length, double chord_error) {
+  return {"cone",
+          makeCone(radius, length, chord_error),
+          std::hypot(radius, length),
+          chord_error,
+          kPi * radius * radius * length / 3.0,
+          [=](const Eigen::Vector3d& p) {
+            const double side = p.head<2>().norm() * length + (p.z() - 0.5 * length) * radius;
+            return std::max(side / std::hypot(radius, length), -p.z() - 0.5 * length);  // inside: exact
+          },
+          [=](RandomEngine& engine) -> Eigen::Vector3d {
+            const double angle = 2.0 * kPi * uniformUnit(engine);
+            const double share = std::sqrt(uniformUnit(engine));
+            const double z = uniformUnit(engine) < 0.5 ? -0.5 * length : (0.5 - share) * length;
+            return {share * radius * std::cos(angle), share * radius * std::sin(angle), z};
+          }};
+}
+
 std::vector<Solid> roundSolids() {
   std::vector<Solid> solids;
   for (const double relative : {0.5, 0.1, 0.01, 0.002}) {
@@ -96,6 +114,8 @@ std::vector<Solid> roundSolids() {
     solids.push_back(cylinder(0.2, 0.7, 0.2 * relative));
     solids.push_back(cylinder(2.0, 0.05, 2.0 * relative));
     solids.push_back(capsule(0.1, 0.4, 0.1 * relative));
+    solids.push_back(cone(0.3, 0.5, 0.3 * relative));
+    solids.push_back(cone(2.0, 0.05, 2.0 * relative));
   }
   solids.push_back(sphere(1e-4, 1e-6));
   solids.push_back(sphere(1e4, 1e2));

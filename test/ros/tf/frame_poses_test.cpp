@@ -74,6 +74,12 @@ TEST(FramePoses, AreThoseOfEachPairAlone) {
     const std::string reference = below(2) == 0 ? "root" : frames[below(14)];
     FramePoses poses;
     poses.setFrames(reference, frames, ros::Time());
+    std::vector<Eigen::Isometry3d> places;
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+      places.emplace_back(Eigen::Translation3d(0.1 * below(9), 0.0, 0.2) *
+                          Eigen::AngleAxisd(0.1 * below(60), Eigen::Vector3d::UnitX()));
+    }
+    poses.setPlaces(places);
     const ros::Time now = at(below(2) == 0 ? 0.3 : 0.1);
     poses.update(buffer, now, 1.0);
     for (std::size_t a = 0; a < frames.size(); ++a) {
@@ -93,8 +99,10 @@ TEST(FramePoses, AreThoseOfEachPairAlone) {
         const auto error = [](const Eigen::Isometry3d& l, const Eigen::Isometry3d& r) {
           return (l.matrix() - r.matrix()).cwiseAbs().maxCoeff();
         };
-        ASSERT_LE(error(poses.poses().relative(a, b, common.time), expected.a_from_b), 1e-9);
-        ASSERT_LE(error(poses.referenceFrom(a, b), expected.reference_from_a), 1e-9);
+        ASSERT_LE(error(poses.poses().relative(a, b, common.time),
+                        places[a].inverse() * expected.a_from_b * places[b]),
+                  1e-9);
+        ASSERT_LE(error(poses.referenceFrom(a, b), expected.reference_from_a * places[a]), 1e-9);
       }
     }
   }
