@@ -7,13 +7,13 @@ set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 size=${1:-quick}
 case $size in
-  quick) overlaps=500 lattices=300 hole_facets=6,20 protrusions=8,16 tree_seeds=10 runs=200 niche_runs=60 steps=200 window=4 proof_poses=200 sizes=1000,10000,100000 spacings=0,0.02 rings=100000 wall=2 island_runs=2 ;;
+  quick) overlaps=500 lattices=300 hole_facets=6,20 protrusions=8,16 tree_seeds=10 runs=200 niche_runs=60 steps=200 window=4 proof_poses=200 sizes=1000,10000,100000 spacings=0,0.02 rings=100000 wall=2 island_runs=2 brackets=20000 cycle_seconds=5 ;;
   full) overlaps=10000 lattices=2000 hole_facets=6,12,20,40 protrusions=1,4,8,16,32 tree_seeds=50 runs=1000 niche_runs=500 steps=500 window=10 proof_poses=7000 sizes=1000,10000,100000,1000000
-    spacings=0,0.01 rings=1000000 wall=6 island_runs=20 ;;
+    spacings=0,0.01 rings=1000000 wall=6 island_runs=20 brackets=1000000 cycle_seconds=60 ;;
   *) echo "usage: scripts/benchmark.sh [quick|full]" >&2; exit 2 ;;
 esac
 program() { find "$root/build" -type f -perm -u+x -name "$1" | head -n 1; }
-for name in tracking battery budget front generation descent islands certificate scale exactness complete accuracy; do
+for name in tracking battery bracket budget front generation descent islands certificate scale exactness complete accuracy; do
   [ -n "$(program "${name}_benchmark")" ] || { echo "${name}_benchmark is not built: run scripts/build.sh" >&2; exit 1; }
 done
 results=$root/build/results_quick
@@ -66,6 +66,20 @@ moving=$moving,peg_in_hole,linked_hooks,comb_in_comb,stairs_leg,obstacle_field
 "$(program budget_benchmark)" --cold --pairs "$moving" --budgets 500,1000,2000,5000,10000,20000 --shares 0,0.05 \
   --proposers evolution,random --steps 60 --output "$results/budget_cold.csv"
 "$(program accuracy_benchmark)" --output "$results/accuracy.csv" --stages-output "$results/stages.csv" | tee "$results/accuracy.txt"
+"$(program bracket_benchmark)" --cycles "$brackets" --output "$results/brackets.csv"
+if [ -n "$(program cycle_benchmark)" ]; then  # built with ROS only
+  scenes=(robot cell)
+  robots=/usr/share/doc/dart/data
+  if [ -d "$robots" ]; then
+    atlas=$robots/sdf/atlas/atlas_v3_no_head.urdf hubo=$robots/urdf/drchubo/drchubo.urdf
+    "$root/scripts/write_srdf.py" "$atlas" 168 >"$root/build/atlas.srdf"
+    "$root/scripts/write_srdf.py" "$hubo" 768 >"$root/build/drchubo.srdf"
+    scenes+=("$robots/urdf/KR5/KR5 sixx R650.urdf" "$atlas,$root/build/atlas.srdf" "$hubo,$root/build/drchubo.srdf")
+  else
+    echo "no robots in motion: apt-get install dart-doc" >&2
+  fi
+  "$(program cycle_benchmark)" "${scenes[@]}" --seconds "$cycle_seconds" --output "$results/cycles.csv"
+fi
 if [ -n "$(program message_benchmark)" ]; then  # built with ROS only
   "$(program message_benchmark)" --output "$results/messages.csv" | tee "$results/messages.txt"
 fi

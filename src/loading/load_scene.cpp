@@ -138,7 +138,8 @@ Scene outlineOf(const SceneParts& parts, const PairSelection& selection, const S
   for (const SelectedPair& pair : selection.pairs) {
     const std::string wanted = selection.labels[pair.source_a] + "/" + selection.labels[pair.source_b];
     std::string name = pair.name.empty() ? wanted : pair.name;
-    for (int i = 2; pair.name.empty() && !taken.insert(name).second; ++i) name = wanted + "_" + std::to_string(i);
+    for (int i = 2; pair.name.empty() && !taken.insert(name).second; ++i)
+      name = wanted + "_" + std::to_string(i);
     scene.pairs.push_back({name, pair.source_a, pair.source_b, pair.enabled, pair.settings});
   }
   return scene;
@@ -236,9 +237,9 @@ Scene assemble(const SceneSpec& spec, SceneParts parts, const SceneLoadOptions& 
       built[i].body->pair_class = outline.bodies[i].pair_class;
       scene.bodies.push_back(std::move(*built[i].body));
     } else {
-      scene.problems.push_back(
-          {parts.sources[i].source, "body '" + parts.sources[i].name + "' is not served: " +
-                                        built[i].problem + "; " + lostPairs(outline, i)});
+      scene.problems.push_back({parts.sources[i].source, "body '" + parts.sources[i].name +
+                                                             "' is not served: " + built[i].problem + "; " +
+                                                             lostPairs(outline, i)});
     }
   }
   for (const ScenePair& pair : outline.pairs) {

@@ -21,9 +21,9 @@ constexpr double kCutoffShare = 0.2;  // of the robot's diagonal
 constexpr std::size_t kRandomPoses = 20;
 constexpr std::uint64_t kSeed = 1;
 constexpr std::size_t kMostNamed = 8;
-constexpr std::size_t kFewPairs = 1000;  // all of which may be solved at any distance
+constexpr std::size_t kFewPairs = 1000;      // all of which may be solved at any distance
 constexpr std::size_t kMostTried = 100'000;  // pairs: those of a robot of 450 links
-constexpr double kEnoughToBeApart = 0.9;  // of the distance: the proof ends with a bound above 0
+constexpr double kEnoughToBeApart = 0.9;     // of the distance: the proof ends with a bound above 0
 
 using Poses = std::unordered_map<std::string, Eigen::Isometry3d>;
 
@@ -177,8 +177,8 @@ void reportOverlappingPairs(Scene& scene, const RobotDescription& robot, const S
     return;
   }
   scene.notes.push_back(text + ". They are left out because ~skip_overlapping_pairs is set");
-  auto filtered = scene.rules.filtered ? *scene.rules.filtered
-                                       : std::vector<std::pair<std::uint64_t, std::uint64_t>>();
+  auto filtered =
+      scene.rules.filtered ? *scene.rules.filtered : std::vector<std::pair<std::uint64_t, std::uint64_t>>();
   for (const std::size_t pair : pairs) {
     const SceneBody& a = scene.bodies[all[pair].body_a];
     const SceneBody& b = scene.bodies[all[pair].body_b];

@@ -10,7 +10,8 @@ namespace concave_distance::detail {
 // Checks of a robot's scene from the URDF alone, before anything moves it.
 
 /// Gives the pairs by rule that have no cutoff one, where there are more than 1000 of them: a fifth of the
-/// diagonal of the largest body, or of the largest robot in its zero pose; adds a note. Listed pairs keep none.
+/// diagonal of the largest body, or of the largest robot in its zero pose; adds a note. Listed pairs keep
+/// none.
 void limitManyPairs(Scene& scene, const SceneParts& parts);
 
 /// Gives every pair a cutoff for the robot's size: a fifth of the diagonal of the box around it in its zero

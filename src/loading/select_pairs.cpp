@@ -11,8 +11,8 @@
 #include "base/ascii.h"
 #include "body_selector.h"
 #include "concave_distance/base/error.h"
+#include "filtered_pairs.h"
 #include "settings_reader.h"
-#include "wording.h"
 
 namespace concave_distance::detail {
 namespace {
@@ -70,7 +70,7 @@ class Selection {
 
   PairSelection run() {
     result_.labels = labelsOf(parts_.sources);
-    findFiltered();
+    result_.filtered = filteredPairs(parts_);
     if (spec_.pairs) {
       for (const PairSpec& entry : *spec_.pairs) addEntry(entry);
     } else {
@@ -79,7 +79,7 @@ class Selection {
     }
     for (const auto& sides : spec_.disabled) disable(sides);
     makeRules();
-    noteFiltered();
+    noteFilteredPairs(parts_, result_);
     for (const NamedPair& pair : named_) result_.pairs.push_back(settle(pair));
     for (const auto& [name, sources] : selector_.groups()) {
       std::vector<std::string>& members = result_.groups[name];
@@ -215,8 +215,7 @@ class Selection {
   PairSettings settingsOf(const std::vector<const PairSpec*>& entries, std::size_t a, std::size_t b,
                           std::optional<bool>& enabled) const {
     PairSettings settings = spec_.defaults.pairs;
-    std::string where =
-        "pair of '" + parts_.sources[a].name + "' and '" + parts_.sources[b].name + "'";
+    std::string where = "pair of '" + parts_.sources[a].name + "' and '" + parts_.sources[b].name + "'";
     for (const PairSpec* entry : entries) {
       if (!entry->entry) continue;
       readPairEntry(*entry->entry, settings, enabled);
@@ -238,7 +237,8 @@ class Selection {
           held.push_back(sides.b[source]);
         }
       }
-      const auto [place, is_new] = number.emplace(std::move(held), static_cast<std::uint32_t>(members.size()));
+      const auto [place, is_new] =
+          number.emplace(std::move(held), static_cast<std::uint32_t>(members.size()));
       if (is_new) members.emplace_back();
       result_.classes.push_back(place->second);
       if (members[place->second].size() < 2) members[place->second].push_back(source);
@@ -287,61 +287,15 @@ class Selection {
     said.entries.insert(said.entries.end(), named.entries.begin(), named.entries.end());
     std::optional<bool> enabled;
     pair.settings = settingsOf(said.entries, pair.source_a, pair.source_b, enabled);
-    const bool is_disabled = named.is_disabled || std::any_of(disabled_.begin(), disabled_.end(), [&](const Sides& s) {
-                               return s.holdEitherWay(named.source_a, named.source_b);
-                             });
+    const bool is_disabled =
+        named.is_disabled || std::any_of(disabled_.begin(), disabled_.end(), [&](const Sides& s) {
+          return s.holdEitherWay(named.source_a, named.source_b);
+        });
     pair.enabled = enabled.value_or(true) && !is_disabled;
     for (const PairSpec* entry : named.entries) {
       if (!entry->name.empty()) pair.name = entry->name;
     }
     return pair;
-  }
-
-  void findFiltered() {
-    std::map<std::string, std::size_t> source_of_name;
-    for (std::size_t i = 0; i < parts_.sources.size(); ++i) source_of_name[parts_.sources[i].name] = i;
-    std::set<LinkPair> all = parts_.disabled_by_srdf;
-    all.insert(parts_.adjacent.begin(), parts_.adjacent.end());
-    for (const LinkPair& pair : all) {
-      const auto a = source_of_name.find(pair.first);
-      const auto b = source_of_name.find(pair.second);
-      if (a != source_of_name.end() && b != source_of_name.end() && a->second != b->second) {
-        result_.filtered.emplace_back(std::minmax(a->second, b->second));
-      }
-    }
-  }
-
-  // Counts what the entries would watch without the filters.
-  void noteFiltered() {
-    std::map<std::string, std::size_t> counts;
-    const auto rule_watches = [&](std::size_t earlier, std::size_t later) {
-      return result_.rules.of(result_.classes[earlier], result_.classes[later]).is_watched;
-    };
-    std::map<std::string, std::vector<std::size_t>> rigid;  // sources by what stands for their frames
-    for (std::size_t i = 0; i < parts_.sources.size(); ++i) {
-      rigid[parts_.rigid.rootOf(parts_.sources[i].frame)].push_back(i);
-    }
-    std::size_t unmoved = 0;
-    for (const auto& [root, sources] : rigid) {
-      std::vector<std::size_t> of_class(result_.rules.classes, 0);
-      for (const std::size_t later : sources) {
-        for (std::size_t row = 0; row < of_class.size(); ++row) {
-          if (result_.rules.of(row, result_.classes[later]).is_watched) unmoved += of_class[row];
-        }
-        ++of_class[result_.classes[later]];
-      }
-    }
-    for (const auto& [a, b] : result_.filtered) {
-      if (!rule_watches(a, b)) continue;
-      const std::string reason = parts_.filterReason(a, b);
-      const bool is_rigid = parts_.rigid.areJoined(parts_.sources[a].frame, parts_.sources[b].frame);
-      if (is_rigid && reason == parts_.kDisabledBySrdf) --unmoved;
-      if (!is_rigid || reason == parts_.kDisabledBySrdf) ++counts[reason];
-    }
-    if (unmoved > 0) counts[parts_.kRigid] = unmoved;
-    for (const auto& [reason, count] : counts) {
-      result_.notes.push_back(counted(count, "pair") + " left out: " + reason);
-    }
   }
 
   const SceneSpec& spec_;

@@ -24,8 +24,8 @@ struct SelectedPair {
 };
 
 struct PairSelection {
-  std::vector<SelectedPair> pairs;  ///< those that entries name by both bodies, in the order of the file
-  PairRules rules;                  ///< of all others, without PairRules::filtered
+  std::vector<SelectedPair> pairs;     ///< those that entries name by both bodies, in the order of the file
+  PairRules rules;                     ///< of all others, without PairRules::filtered
   std::vector<std::uint32_t> classes;  ///< of the sources
   std::vector<std::string> labels;     ///< of the sources, each usable in a topic's name and once only
   std::vector<std::pair<std::size_t, std::size_t>> filtered;  ///< sources whose pair no rule gives

@@ -13,8 +13,10 @@
 #include "concave_distance/base/error.h"
 #include "convex_shells.h"
 #include "mesh/surface/connected_pieces.h"
+#include "mesh/surface/core_mesh.h"
 #include "mesh/surface/facets.h"
 #include "mesh/surface/grid_size.h"
+#include "mesh/surface/round_geometry.h"
 #include "mesh/surface/triangle_adjacency.h"
 #include "mesh/trees/hull_gap.h"
 #include "mesh/trees/normal_cone_tree.h"
@@ -29,6 +31,7 @@ struct BodyMesh::State {
   detail::Trees trees;
   // Made on demand:
   MadeOnce<RecentredBody> recentred;
+  MadeOnce<RoundCore> core;
   MadeOnce<ShellContacts> shell_contacts;
   MadeOnce<Facets> facets;
   MadeOnce<HullGap> hull_gap;
@@ -126,6 +129,17 @@ const RecentredBody& BodyMesh::recentred() const {
   });
 }
 
+const RoundCore& BodyMesh::core() const {
+  return state_->core.get([&]() -> RoundCore {
+    if (shape() == nullptr || detail::hasFlatEnds(*shape())) return {};
+    detail::CoreMesh core = detail::coreMesh(*shape(), name());
+    BodyMeshOptions options;
+    options.max_edge_length = 2.0 * core.surface.diameter();  // its vertices are all the nodes of the search
+    return {std::make_shared<BodyMesh>(name(), std::move(core.surface), options), shape()->radius,
+            core.thickness};
+  });
+}
+
 const ShellContacts& BodyMesh::shellContacts() const {
   return state_->shell_contacts.get(
       [&] { return detail::shellContactsOf(surface(), topology(), tree(), state_->cache); });
@@ -190,10 +204,13 @@ std::size_t BodyMesh::memoryBytes() const {
   // A body that nobody has solved far from its origin is not made for its size.
   const RecentredBody* moved = state.recentred.ifMade();
   const std::size_t moved_bytes = moved != nullptr && moved->mesh ? moved->mesh->memoryBytes() : 0;
+  const RoundCore* core = state.core.ifMade();
+  const std::size_t core_bytes = core != nullptr && core->mesh ? core->mesh->memoryBytes() : 0;
   return sizeof(BodyMesh) + sizeof(State) + surface().memoryBytes() + topology_bytes + attached_bytes +
-         moved_bytes + tree().memoryBytes() + hierarchy().memoryBytes() + state.adjacency.memoryBytes() +
-         state.shell_contacts.memoryBytes() + state.facets.memoryBytes() + state.convex_shells.memoryBytes() +
-         state.pieces.memoryBytes() + state.cones[0].memoryBytes() + state.cones[1].memoryBytes();
+         moved_bytes + core_bytes + tree().memoryBytes() + hierarchy().memoryBytes() +
+         state.adjacency.memoryBytes() + state.shell_contacts.memoryBytes() + state.facets.memoryBytes() +
+         state.convex_shells.memoryBytes() + state.pieces.memoryBytes() + state.cones[0].memoryBytes() +
+         state.cones[1].memoryBytes();
 }
 
 }  // namespace concave_distance

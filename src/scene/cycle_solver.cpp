@@ -14,6 +14,8 @@ namespace {
 
 /// A list that stays unfinished has a cycle of its own in every so many: it leaves no time to those after it.
 constexpr std::uint32_t kCyclesToOwnOne = 4;
+/// A list that is expected to need this share of the time for all lists is a long one.
+constexpr double kShareOfLong = 0.125;
 
 bool ownsCycle(const TrackedPair& pair) {
   return pair.cycles_unfinished % kCyclesToOwnOne == kCyclesToOwnOne - 1;
@@ -68,8 +70,8 @@ void CycleSolver::solve(TrackedPair& pair) {
 }
 
 // Two rounds in the order of urgency: the distances, so that each has its proof before any list takes its
-// time, then niches and effects. A pair leaves those after it what they needed last, but takes half of what
-// is left at least, so that a list which needs long does not wait for ever.
+// time, then niches and effects, long lists last. A pair leaves those after it what they needed last, but
+// takes half of what is left at least, so that a list which needs long does not wait for ever.
 void CycleSolver::solveUntil(WorkLimit::Clock::time_point end) {
   using Clock = WorkLimit::Clock;
   using Seconds = std::chrono::duration<double>;
@@ -80,8 +82,8 @@ void CycleSolver::solveUntil(WorkLimit::Clock::time_point end) {
   turns_.clear();
   for (TrackedPair* pair : pairs_) {
     const PairSolution& last = pair->solution;
-    const std::uint32_t waited = std::max(pair->cycles_put_off, ownsCycle(*pair) ? kLongestWait : 0);
-    turns_.push_back({pair, turns_.size(), {last.distance, last.closing_speed, waited}, 0.0});
+    turns_.push_back(
+        {pair, turns_.size(), {last.distance, last.closing_speed, pair->cycles_put_off, false, false}, 0.0});
   }
   sortByUrgency();
   forEachInOrder([&](Turn& turn) {
@@ -91,24 +93,45 @@ void CycleSolver::solveUntil(WorkLimit::Clock::time_point end) {
     turn.urgency.distance = now.distance;
     turn.urgency.closing_speed = now.closing_speed;
   });
+  const double all = Seconds(end - Clock::now()).count();
+  for (Turn& turn : turns_) {
+    turn.urgency.is_long = turn.pair->seconds_to_finish > kShareOfLong * all;
+    turn.urgency.owns_cycle = turn.urgency.is_long && ownsCycle(*turn.pair);
+  }
   sortByUrgency();
+  const auto threads = static_cast<double>(arena_.max_concurrency());
+  giveThread(0.5 * (threads - 1.0) * all);
   double seconds_after = 0.0;
   for (std::size_t i = turns_.size(); i-- > 0;) {
     turns_[i].seconds_after = seconds_after;
     seconds_after += turns_[i].pair->seconds_to_finish;
   }
-  const auto threads = static_cast<double>(arena_.max_concurrency());
-  const double all = Seconds(end - Clock::now()).count();
   forEachInOrder([&](Turn& turn) {
     TrackedPair& pair = *turn.pair;
     const Clock::time_point now = Clock::now();
     const double left = Seconds(end - now).count();
-    const double after = ownsCycle(pair) ? 0.0 : turn.seconds_after / threads;
+    const double after = turn.urgency.owns_cycle ? 0.0 : turn.seconds_after / threads;
     const double own = std::max(0.5 * left, left - after);
     pair.finish(now + std::chrono::duration_cast<Clock::duration>(Seconds(own)));
     const bool had_its_turn = own > 0.0 && own >= 0.5 * all;
     pair.cycles_put_off = pair.put_off && !had_its_turn ? pair.cycles_put_off + 1 : 0;
   });
+}
+
+// Where the other threads have time for all short lists, the long one that has waited longest goes first.
+void CycleSolver::giveThread(double seconds_of_others) {
+  double seconds = 0.0;
+  auto first = turns_.end();
+  for (auto turn = turns_.begin(); turn != turns_.end(); ++turn) {
+    if (!turn->urgency.is_long) {
+      seconds += turn->pair->seconds_to_finish;
+    } else if (first == turns_.end() || first->pair->cycles_unfinished < turn->pair->cycles_unfinished) {
+      first = turn;
+    }
+  }
+  if (first == turns_.end() || seconds > seconds_of_others) return;
+  first->urgency.owns_cycle = true;
+  std::rotate(turns_.begin(), first, first + 1);
 }
 
 // Threads take turns in their order, each the next one.

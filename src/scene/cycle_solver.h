@@ -45,6 +45,8 @@ class CycleSolver {
   template <typename Act>
   void forEachInOrder(const Act& act);
   void sortByUrgency();
+  /// @param seconds that other threads have for short lists
+  void giveThread(double seconds_of_others);
 
   bool is_serial_;
   const std::atomic<bool>* stop_;

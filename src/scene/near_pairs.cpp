@@ -8,7 +8,7 @@
 #include "base/constants.h"
 #include "body_box.h"
 #include "concave_distance/scene/broad_phase.h"
-#include "tracking/relative_motion.h"
+#include "tracking/rigid_pose.h"
 
 namespace concave_distance {
 namespace {
@@ -21,148 +21,7 @@ std::uint64_t keyOf(SlotPair slots) {
   return std::uint64_t{slots.a} << 32U | slots.b;
 }
 
-double reachOf(const PairSettings& settings) {
-  const double warned =
-      settings.warning_distance ? *settings.warning_distance + settings.warning_hysteresis : 0.0;
-  return std::max(settings.tracker.cutoff, warned);
-}
-
-// The largest reach of a pair of each class; below 0: none.
-std::vector<double> reachesOf(const Scene& scene, bool has_added) {
-  std::vector<double> reaches(scene.rules.classes, -1.0);
-  for (std::size_t row = 0; row < scene.rules.classes; ++row) {
-    for (std::size_t column = 0; column < scene.rules.classes; ++column) {
-      const PairRule& rule = scene.rules.of(row, column);
-      if (!rule.is_enabled || !(rule.is_watched || has_added)) continue;
-      const double reach = reachOf(settingsOf(scene, rule));
-      reaches[row] = std::max(reaches[row], reach);
-      reaches[column] = std::max(reaches[column], reach);
-    }
-  }
-  return reaches;
-}
-
-std::size_t findBySerial(const std::unordered_map<std::uint64_t, std::size_t>& places,
-                         const SceneBody& body, const Scene& scene) {
-  const auto found = places.find(body.serial);
-  const bool is_there = found != places.end() && isSameBody(scene.bodies[found->second], body);
-  return is_there ? found->second : scene.bodies.size();
-}
-
-// What a near pair is in another scene: nullptr when no rule watches it there.
-std::shared_ptr<const ScenePair> pairIn(const Scene& scene, std::size_t a, std::size_t b,
-                                        const TrackedPair& tracked, bool settings_changed) {
-  if (a == scene.bodies.size() || b == scene.bodies.size()) return nullptr;
-  const PairRule* rule = ruleOf(scene, a, b);
-  if (rule == nullptr || !rule->is_enabled) return nullptr;
-  const bool is_shared = &scene.bodies[a] == tracked.body_a.get() && &scene.bodies[b] == tracked.body_b.get();
-  if (!settings_changed && is_shared && tracked.origin->body_a == a && tracked.origin->body_b == b) {
-    return tracked.origin;
-  }
-  return std::make_shared<const ScenePair>(*ruledPair(scene, a, b));
-}
-
 }  // namespace
-
-NearPairs::Plan NearPairs::plan(const Scene& scene, bool settings_changed) const {
-  Plan next;
-  next.scene = scene;
-  next.free_slots = now_.free_slots;
-  next.freed_slots = now_.freed_slots;
-  next.slot_count = now_.slot_count;
-  std::unordered_map<std::uint64_t, std::size_t> places;
-  bool has_added = false;
-  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-    places.emplace(scene.bodies[i].serial, i);
-    has_added = has_added || scene.bodies[i].added_rule;
-  }
-  const std::vector<double> reaches = reachesOf(scene, has_added);
-  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-    const std::shared_ptr<const SceneBody> body = scene.bodies.share(i);
-    const auto known = now_.slot_of.find(body->serial);
-    std::uint32_t slot = 0;
-    if (known != now_.slot_of.end()) {
-      slot = known->second;
-    } else if (!next.free_slots.empty()) {
-      slot = next.free_slots.back();
-      next.free_slots.pop_back();
-    } else {
-      slot = next.slot_count++;
-    }
-    next.slot_of.emplace(body->serial, slot);
-    const double reach = reaches[body->pair_class];
-    next.has_rules = next.has_rules || reach >= 0.0;
-    next.bodies.push_back({body, slot, reach < 0.0 ? reach : 0.5 * reach});
-  }
-  for (const Plan::Body& body : now_.bodies) {
-    if (next.slot_of.count(body.body->serial) == 0) next.freed_slots.push_back(body.slot);
-  }
-  const auto in_next = [&](const TrackedPair& pair) {
-    return pairIn(scene, findBySerial(places, *pair.body_a, scene), findBySerial(places, *pair.body_b, scene),
-                  pair, settings_changed);
-  };
-  for (const std::shared_ptr<TrackedPair>& pair : pairs_) next.pairs.push_back(in_next(*pair));
-  for (const Resting& resting : resting_) next.resting.push_back(in_next(*resting.pair));
-  next.ruled = next.has_rules ? countRuledPairs(scene) : 0;
-  return next;
-}
-
-void NearPairs::adopt(Plan&& plan, bool settings_changed, std::uint64_t& largest_id) {
-  for (const Plan::Body& body : now_.bodies) {
-    const auto found = plan.slot_of.find(body.body->serial);
-    if (found == plan.slot_of.end()) sweep_.remove(body.slot);
-  }
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < pairs_.size(); ++i) {
-    std::shared_ptr<const ScenePair>& pair = plan.pairs[i];
-    if (!pair) continue;
-    if (pair != pairs_[i]->origin || settings_changed) {
-      const auto& a = plan.scene.bodies.share(pair->body_a);
-      const auto& b = plan.scene.bodies.share(pair->body_b);
-      pairs_[i]->adopt(std::move(pair), a, b, settings_changed);
-    }
-    pairs_[kept] = std::move(pairs_[i]);
-    entries_[kept] = entries_[i];
-    ++kept;
-  }
-  entries_.resize(kept);
-  pairs_.resize(kept);
-  entry_of_.clear();
-  std::size_t rests = 0;
-  for (std::size_t i = 0; i < resting_.size(); ++i) {
-    std::shared_ptr<const ScenePair>& pair = plan.resting[i];
-    if (!pair) {
-      largest_id = std::max(largest_id, resting_[i].pair->largest_id);
-      continue;
-    }
-    if (pair != resting_[i].pair->origin || settings_changed) {
-      const auto& a = plan.scene.bodies.share(pair->body_a);
-      const auto& b = plan.scene.bodies.share(pair->body_b);
-      resting_[i].pair->adopt(std::move(pair), a, b, settings_changed);
-    }
-    if (rests != i) resting_[rests] = std::move(resting_[i]);
-    ++rests;
-  }
-  resting_.resize(rests);
-  plan.resting.clear();
-  plan.pairs.clear();
-  now_ = std::move(plan);
-  asks_all_ = true;
-  ++revision_;
-}
-
-void NearPairs::recover() {
-  sweep_.clear();
-  cut_.clear();
-  unknown_before_.clear();
-  for (Entry& entry : entries_) entry.is_by_box = entry.is_by_unknown = false;
-  asks_all_ = true;
-  keeps_left_ = true;
-  entries_.resize(std::min(entries_.size(), pairs_.size()));
-  pairs_.resize(entries_.size());
-  entry_of_.clear();
-  ++revision_;
-}
 
 void NearPairs::update(const BodyPoses& poses, std::uint64_t& largest_id) {
   if (!now_.has_rules && pairs_.empty()) {
@@ -338,9 +197,9 @@ void NearPairs::admitCut(const BodyPoses& poses, std::uint64_t largest_id) {
     const std::size_t time = std::min(newest(a), newest(b));
     const SceneBody& body_a = *now_.bodies[a].body;
     const SceneBody& body_b = *now_.bodies[b].body;
-    const Eigen::Isometry3d a_from_b = poses.relative
-                                           ? poses.relative(a, b, time)
-                                           : poses.pose(a, time).inverse(Eigen::Isometry) * poses.pose(b, time);
+    const Eigen::Isometry3d a_from_b =
+        poses.relative ? poses.relative(a, b, time)
+                       : poses.pose(a, time).inverse(Eigen::Isometry) * poses.pose(b, time);
     left.emplace_back(
         distanceLowerBound(body_a.bounds, body_b.bounds, a_from_b, body_a.margin + body_b.margin), slots);
   }

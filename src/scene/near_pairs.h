@@ -27,7 +27,7 @@ class NearPairs {
  public:
   using Pairs = std::vector<std::shared_ptr<TrackedPair>>;
 
-  /// What another scene makes of this; adopt() takes it over and allocates nothing.
+  /// Holds what another scene makes of this; adopt() takes it over and allocates nothing.
   struct Plan {
     Scene scene;
     struct Body {
@@ -35,7 +35,7 @@ class NearPairs {
       std::uint32_t slot = 0;
       double half_reach = 0.0;  ///< that its box is widened by, metres; below 0: no rule watches it
     };
-    std::vector<Body> bodies;  ///< in the order of the scene
+    std::vector<Body> bodies;                                  ///< in the order of the scene
     std::unordered_map<std::uint64_t, std::uint32_t> slot_of;  ///< by SceneBody::serial
     std::vector<std::uint32_t> free_slots;
     std::vector<std::uint32_t> freed_slots;
@@ -95,8 +95,8 @@ class NearPairs {
   double cut_bound_ = 0.0;
   OtherPairs others_;
   std::uint64_t revision_ = 0;
-  bool asks_all_ = false;     ///< the rules may have changed
-  bool keeps_left_ = false;   ///< nothing is known of the last cycle
+  bool asks_all_ = false;    ///< the rules may have changed
+  bool keeps_left_ = false;  ///< nothing is known of the last cycle
 };
 
 }  // namespace concave_distance

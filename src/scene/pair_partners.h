@@ -27,8 +27,8 @@ struct AddedPairs {
 
 /// The partners of a new body.
 struct Partners {
-  std::vector<std::size_t> named;  ///< by themselves
-  AddedBodyRule rule;              ///< for all others
+  std::vector<std::size_t> named;         ///< by themselves
+  AddedBodyRule rule;                     ///< for all others
   std::vector<std::string> rigid_frames;  ///< of PairPartners::is_rigid, unknown to the scene so far
 };
 

@@ -13,8 +13,9 @@ namespace concave_distance {
 namespace {
 
 bool isFiltered(const PairRules& rules, std::uint64_t serial_a, std::uint64_t serial_b) {
-  return rules.filtered && std::binary_search(rules.filtered->begin(), rules.filtered->end(),
-                                              std::pair<std::uint64_t, std::uint64_t>(std::minmax(serial_a, serial_b)));
+  return rules.filtered &&
+         std::binary_search(rules.filtered->begin(), rules.filtered->end(),
+                            std::pair<std::uint64_t, std::uint64_t>(std::minmax(serial_a, serial_b)));
 }
 
 // Without filters.
@@ -99,9 +100,8 @@ std::optional<ScenePair> ruledPair(const Scene& scene, std::size_t body_a, std::
   ScenePair pair;
   std::tie(pair.body_a, pair.body_b) = std::minmax(body_a, body_b);
   const std::shared_ptr<const AddedBodyRule>& added = scene.bodies[pair.body_b].added_rule;
-  const bool is_turned = added && added->watches(scene.bodies[pair.body_a].serial)
-                             ? true
-                             : rule->order == PairOrder::Later;
+  const bool is_turned =
+      added && added->watches(scene.bodies[pair.body_a].serial) ? true : rule->order == PairOrder::Later;
   if (is_turned) std::swap(pair.body_a, pair.body_b);
   pair.name = nameOf(scene, pair.body_a, pair.body_b);
   pair.enabled = rule->is_enabled;

@@ -84,7 +84,8 @@ bool appendNames(const Scene& scene, const BodySide& a, const BodySide& b, std::
     for (std::size_t j = 0; a[i] && j < b.size() && names.size() < kMostPairsNamed; ++j) {
       if (!b[j] || (j < i && a[j] && b[i])) continue;
       const auto pair = ruledPair(scene, i, j);
-      if (pair && std::find(names.begin(), names.end(), pair->name) == names.end()) names.push_back(pair->name);
+      if (pair && std::find(names.begin(), names.end(), pair->name) == names.end())
+        names.push_back(pair->name);
     }
   }
   return names.size() > before;
@@ -105,8 +106,7 @@ void changeRules(Scene& scene, const BodySide& side_a, const BodySide& side_b, c
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     const SceneBody& body = scene.bodies[i];
     const ClassKey key{body.pair_class, side_a[i], side_b[i], body.is_robot_link};
-    class_of_body.push_back(
-        classes.emplace(key, static_cast<std::uint32_t>(classes.size())).first->second);
+    class_of_body.push_back(classes.emplace(key, static_cast<std::uint32_t>(classes.size())).first->second);
   }
   PairRules rules;
   rules.filtered = scene.rules.filtered;
@@ -118,9 +118,9 @@ void changeRules(Scene& scene, const BodySide& side_a, const BodySide& side_b, c
       PairRule& rule = rules.of(row, column) = scene.rules.of(earlier.before, later.before);
       const bool is_forwards = earlier.on_a && later.on_b;
       if (is_forwards || (earlier.on_b && later.on_a)) {
-        settings.change(rule,
-                        {earlier.is_link && later.is_link, is_forwards ? PairOrder::Earlier : PairOrder::Later},
-                        change);
+        settings.change(
+            rule, {earlier.is_link && later.is_link, is_forwards ? PairOrder::Earlier : PairOrder::Later},
+            change);
       } else {
         settings.keep(rule);
       }
@@ -180,7 +180,8 @@ std::vector<std::string> changeMatchingPairs(Scene& scene, const std::string& pa
                                              const PairChange& change) {
   requirePatternLength(pattern, "pair");
   if (!isPattern(pattern) && !scene.pairs.find(pattern)) {
-    if (std::optional<ScenePair> named = findPairNamed(scene, pattern)) scene.pairs.push_back(std::move(*named));
+    if (std::optional<ScenePair> named = findPairNamed(scene, pattern))
+      scene.pairs.push_back(std::move(*named));
   }
   std::vector<std::string> names;
   for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
@@ -210,7 +211,8 @@ void listMatchingPairs(Scene& scene, const std::vector<std::string>& patterns) {
   for (const std::string& pattern : patterns) {
     if (!isPattern(pattern)) {
       if (scene.pairs.find(pattern)) continue;
-      if (std::optional<ScenePair> pair = findPairNamed(scene, pattern)) scene.pairs.push_back(std::move(*pair));
+      if (std::optional<ScenePair> pair = findPairNamed(scene, pattern))
+        scene.pairs.push_back(std::move(*pair));
       continue;
     }
     for (const auto& [before, after] : patternsOfLabels(pattern)) {

@@ -11,7 +11,7 @@ namespace concave_distance::detail {
 /// One entry for each body of a scene: whether it is on this side of some pairs.
 using BodySide = std::vector<bool>;
 
-/// What a change of rules is told about the pairs of two classes.
+/// Tells a change of rules about the pairs of two classes.
 struct RuledBodies {
   bool both_are_links = false;           ///< of robots
   PairOrder order = PairOrder::Earlier;  ///< which of the two is on side A
@@ -40,7 +40,8 @@ inline constexpr std::size_t kMostPairsNamed = 1000;
 std::vector<std::string> changeMatchingPairs(Scene& scene, const std::string& pattern,
                                              const PairChange& change);
 
-/// Lists the pairs by rule whose names match one of the patterns, as far as the scene's limit of pairs allows.
+/// Lists the pairs by rule whose names match one of the patterns, as far as the scene's limit of pairs
+/// allows.
 void listMatchingPairs(Scene& scene, const std::vector<std::string>& patterns);
 
 }  // namespace concave_distance::detail

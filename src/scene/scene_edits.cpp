@@ -98,13 +98,13 @@ std::vector<std::string> setGroupsEnabled(Scene& scene, const std::vector<std::s
       scene.pairs.edit(i).enabled = enabled;
     }
   }
-  detail::changeRules(
-      scene, side_a, side_b, [&](PairRule& rule, PairSettings&, const detail::RuledBodies& bodies) {
-        rule.is_enabled = enabled;
-        if (rule.is_watched || !enabled || bodies.both_are_links) return;
-        rule.is_watched = true;
-        rule.order = bodies.order;
-      });
+  detail::changeRules(scene, side_a, side_b,
+                      [&](PairRule& rule, PairSettings&, const detail::RuledBodies& bodies) {
+                        rule.is_enabled = enabled;
+                        if (rule.is_watched || !enabled || bodies.both_are_links) return;
+                        rule.is_watched = true;
+                        rule.order = bodies.order;
+                      });
   for (const auto& [a, b] : missing) {
     if (const auto pair = ruledPair(scene, a, b)) names.push_back(pair->name);
   }
@@ -195,7 +195,8 @@ AddedPairs appendBody(Scene& scene, SceneBody body, const PairPartners& partners
   body.pair_class = detail::classOfAdded(scene, settings);
   body.added_rule = std::make_shared<const AddedBodyRule>(found.rule);
   for (const std::string& frame : found.rigid_frames) scene.rigid.join(frame, body.frame);
-  for (int copy = 2; isLabel(scene, body.pairLabel()); ++copy) body.label = body.name + "_" + std::to_string(copy);
+  for (int copy = 2; isLabel(scene, body.pairLabel()); ++copy)
+    body.label = body.name + "_" + std::to_string(copy);
   scene.bodies.push_back(std::move(body));
   for (const std::size_t partner : found.named) {
     appendPair(scene, scene.bodies.size() - 1, partner, settings);
@@ -245,7 +246,8 @@ std::vector<std::string> setPairEnabled(Scene& scene, const PairReference& refer
   std::vector<std::string> names;
   if (!reference.pair.empty()) {
     return detail::changeMatchingPairs(
-        scene, reference.pair, [&](const std::string&, bool& is_enabled, PairSettings&) { is_enabled = enabled; });
+        scene, reference.pair,
+        [&](const std::string&, bool& is_enabled, PairSettings&) { is_enabled = enabled; });
   }
   const detail::MatchingBodies a = detail::matchingBodies(scene, reference.body_a, "body_a");
   const detail::MatchingBodies b = detail::matchingBodies(scene, reference.body_b, "body_b");

@@ -17,9 +17,8 @@ void requireRoomForBody(const Scene& scene);
 
 /// Adds a body and its pairs with its partners: those that are named by themselves are listed, the rule of
 /// the body gives the others.
-/// @throws Error when a body or a group has the name or it is not a ROS name, when a partner is unknown or
-/// the body itself, or
-///         when the scene would exceed its limits
+/// @throws Error when a body or a group has the name or it is not a ROS name, when a partner is unknown or the
+///         body itself, or when the scene would exceed its limits
 AddedPairs addBody(Scene& scene, SceneBody body, const PairPartners& partners, const PairSettings& settings);
 /// The same without the names of its pairs.
 AddedPairs appendBody(Scene& scene, SceneBody body, const PairPartners& partners,
@@ -46,7 +45,8 @@ struct PairReference {
 /// Pairs of the two sides that are not watched are created when they are enabled: of two bodies named by
 /// themselves also one that a filter left out (adjacent links), listed and with `settings`; of groups and
 /// patterns by rule, those that no filter concerns, with the scene's defaults.
-/// @return the pairs' names, 1000 at most of groups and patterns. @throws Error when there is no such pair or body
+/// @return the pairs' names, 1000 at most of groups and patterns. @throws Error when there is no such pair or
+/// body
 std::vector<std::string> setPairEnabled(Scene& scene, const PairReference& reference, bool enabled,
                                         const PairSettings& settings);
 

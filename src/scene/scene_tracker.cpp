@@ -209,7 +209,8 @@ CycleCounts SceneTracker::update(const std::vector<std::optional<Eigen::Isometry
     poses_.newest[body] = 0;
     poses_.poses[body] = *world_from_body[body];
   }
-  return update(poses_, [&demand](std::size_t, const TrackedPair&) { return demand; }, end);
+  return update(
+      poses_, [&demand](std::size_t, const TrackedPair&) { return demand; }, end);
 }
 
 CycleCounts SceneTracker::update(const BodyPoses& poses, const DemandOf& demand_of,
@@ -245,9 +246,9 @@ PairInput SceneTracker::locate(const BodyPoses& poses, const ScenePair& pair) co
   if (!input.located) return input;
   const auto time = static_cast<std::size_t>(std::max(common, 0));
   input.time = input.fixed ? poses.now : poses.times[time];
-  input.a_from_b = poses.relative ? poses.relative(pair.body_a, pair.body_b, time)
-                                  : poses.pose(pair.body_a, time).inverse(Eigen::Isometry) *
-                                        poses.pose(pair.body_b, time);
+  input.a_from_b =
+      poses.relative ? poses.relative(pair.body_a, pair.body_b, time)
+                     : poses.pose(pair.body_a, time).inverse(Eigen::Isometry) * poses.pose(pair.body_b, time);
   return input;
 }
 

@@ -16,13 +16,16 @@ double expectedDistance(const PairUrgency& pair) {
 }
 
 std::uint32_t overdue(const PairUrgency& pair) {
-  return pair.cycles_waited < kLongestWait ? 0 : pair.cycles_waited;
+  const std::uint32_t waited = pair.is_long ? pair.cycles_waited / kCyclesOfLong : pair.cycles_waited;
+  return waited < kLongestWait ? 0 : waited;
 }
 
 }  // namespace
 
 bool isMoreUrgent(const PairUrgency& l, const PairUrgency& r) {
   if (overdue(l) != overdue(r)) return overdue(l) > overdue(r);
+  if (l.is_long != r.is_long) return r.is_long;
+  if (l.owns_cycle != r.owns_cycle) return l.owns_cycle;
   const double distance_l = expectedDistance(l);
   const double distance_r = expectedDistance(r);
   if (distance_l != distance_r) return distance_l < distance_r;

@@ -105,9 +105,12 @@ void TrackedPair::finish(WorkLimit::Clock::time_point end) {
   }
   endSolve();
   cycles_unfinished = put_off ? cycles_unfinished + 1 : 0;
-  if (put_off) return;
-  // A long one is rarely followed by another.
   const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
+  if (put_off) {
+    seconds_to_finish = std::max(seconds_to_finish, seconds);
+    return;
+  }
+  // A long one is rarely followed by another.
   seconds_to_finish = std::min(seconds, std::max(kLeastExpected, 2.0 * seconds_to_finish));
 }
 

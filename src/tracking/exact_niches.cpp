@@ -19,7 +19,8 @@ constexpr double kSecondsOfKnown = 3e-6;
 constexpr double kMostForKnown = 0.3;
 // The search for all minima ends after this share of the rest, the searches of basins after that one.
 constexpr double kShareOfMinima = 0.6;
-// A search that is behind the motion needs most of the time, or it never catches up with it.
+// Where part of a list is worth little, a search that is behind the motion needs most of the time, or it
+// never catches up with it.
 constexpr double kShareToCatchUp = 0.88;
 constexpr double kShareOfFloods = 0.9;
 
@@ -83,8 +84,9 @@ void ExactNiches::admit(const PairFrame& frame, const TrackerParameters& paramet
   request_.certain_distance = certain_distance;
   const double for_known = kSecondsOfKnown * static_cast<double>(records.size());
   const double all = time_share - std::min(kMostForKnown, limit.shareOf(for_known));
-  const bool is_behind = cycle.catches_up && !found_.looked_at_all;
-  request_.time_shares = {(is_behind ? kShareToCatchUp : kShareOfMinima) * all, kShareOfFloods * all, all};
+  const double for_minima = cycle.catches_up ? kShareToCatchUp : kShareOfMinima;
+  request_.time_shares = {for_minima * all, kShareOfFloods * all, all};
+  request_.finishes_searches = cycle.catches_up;
   request_.given = nullptr;
   if (!looks_for_all) {
     followed_.insert(followed_.end(), request_.proposals.begin(), request_.proposals.end());

@@ -6,26 +6,15 @@
 #include <limits>
 #include <utility>
 
-#include "distance/bound/round_certificate.h"
-#include "distance/bound/solid_overlap.h"
-#include "distance/niches/niche_properties.h"
-#include "mesh/trees/normal_cone_tree.h"
-#include "node_niches.h"
+#include "distance/kernels/pair_motion.h"
 #include "padded_solution.h"
-#include "relative_motion.h"
-#include "search_stage.h"
+#include "pair_answer.h"
+#include "rigid_pose.h"
 
 namespace concave_distance {
 namespace {
 
-using detail::ConvexNiches;
-
-constexpr std::size_t kUsualNiches = 256;
-
-// Shares of a time budget, each of the whole time and with the stages before it.
-constexpr double kShareOfProof = 0.4;
-constexpr double kShareOfSearch = 0.55;
-constexpr double kShareOfNiches = 0.95;
+constexpr double kShareOfProof = 0.4;  // of a time budget, where niches come after it
 
 double seconds(WorkLimit::Clock::duration duration) {
   return std::chrono::duration<double>(duration).count();
@@ -39,28 +28,22 @@ double secondsSince(WorkLimit::Clock::time_point start) {
 
 PairCycle::PairCycle(std::string name, std::shared_ptr<const BodyMesh> a, std::shared_ptr<const BodyMesh> b,
                      const TrackerParameters& parameters, std::uint64_t largest_used_id, double pose_error)
-    : name_(std::move(name)),
-      a_(std::move(a)),
-      b_(std::move(b)),
-      parameters_(parameters),
-      largest_used_id_(largest_used_id),
-      pose_error_(pose_error),
-      search_(*a_, *b_) {
-  parameters_.validate(name_);
-  archive_.beginIdsAfter(largest_used_id);
-  round_.beginIdsAfter(largest_used_id);
+    : stages_(std::move(name), std::move(a), std::move(b), parameters, pose_error),
+      largest_used_id_(largest_used_id) {
+  stages_.beginIdsAfter(largest_used_id);
 }
 
 void PairCycle::update(const Eigen::Isometry3d& pose, double time, PairSolution& solution, bool is_tracked) {
   const auto start = WorkLimit::Clock::now();
-  limit_ = WorkLimit(start, parameters_.time_budget, parameters_.memory_limit, parameters_.stop);
-  cycle_ends_first_ = false;
+  limit_ = WorkLimit(start, stages_.parameters().time_budget, stages_.parameters().memory_limit,
+                     stages_.parameters().stop);
+  stages_.cycle().ends_first = false;
   if (begin(pose, time, solution, is_tracked)) {
     if (proves()) {
       limit_.allowShare(wantsNiches() ? kShareOfProof : 1.0);
-      prove(solution);
+      stages_.prove(solution, limit_);
     }
-    if (wantsNiches()) findNiches(solution);
+    if (wantsNiches()) stages_.findNiches(solution, limit_);
     report(solution);
     end(solution);
   }
@@ -70,19 +53,20 @@ void PairCycle::update(const Eigen::Isometry3d& pose, double time, PairSolution&
 bool PairCycle::prove(const Eigen::Isometry3d& pose, double time, PairSolution& solution,
                       WorkLimit::Clock::time_point cycle_end) {
   const auto start = WorkLimit::Clock::now();
-  const double own = (wantsNiches() ? kShareOfProof : 1.0) * parameters_.time_budget;
+  const double own = (wantsNiches() ? kShareOfProof : 1.0) * stages_.parameters().time_budget;
   const double left = seconds(cycle_end - start);
-  cycle_ends_first_ = left < own;
-  limit_ = WorkLimit(start, std::min(own, left), parameters_.memory_limit, parameters_.stop);
-  if (cycle_ends_first_ && !was_cut_) limit_.expectEnough();
+  stages_.cycle().ends_first = left < own;
+  limit_ =
+      WorkLimit(start, std::min(own, left), stages_.parameters().memory_limit, stages_.parameters().stop);
+  if (stages_.cycle().ends_first && !was_cut_) limit_.expectEnough();
   bool is_to_go_on = begin(pose, time, solution, true);
   if (is_to_go_on) {
-    if (proves()) prove(solution);
+    if (proves()) stages_.prove(solution, limit_);
     is_proof_cut_ = limit_.hasRefused();
     is_to_go_on = wantsNiches();
     if (proves()) reportAlone(solution);
     if (is_to_go_on) {
-      padSolution(parameters_, solution);
+      padSolution(stages_.parameters(), solution);
     } else {
       was_cut_ = is_proof_cut_;
       reportCompleteness(solution);
@@ -95,19 +79,20 @@ bool PairCycle::prove(const Eigen::Isometry3d& pose, double time, PairSolution& 
 
 bool PairCycle::addNiches(PairSolution& solution, WorkLimit::Clock::time_point cycle_end) {
   const auto start = WorkLimit::Clock::now();
-  const double own = parameters_.time_budget - solution.solve_seconds;
+  const double own = stages_.parameters().time_budget - solution.solve_seconds;
   const double left = seconds(cycle_end - start);
-  cycle_ends_first_ = left < own;
-  limit_ = cycle_ends_first_ ? WorkLimit(start, left, parameters_.memory_limit, parameters_.stop)
-                             : remainingWork(parameters_, solution.solve_seconds);
-  if (cycle_ends_first_ && !was_cut_) limit_.expectEnough();
+  stages_.cycle().ends_first = left < own;
+  limit_ = stages_.cycle().ends_first
+               ? WorkLimit(start, left, stages_.parameters().memory_limit, stages_.parameters().stop)
+               : remainingWork(stages_.parameters(), solution.solve_seconds);
+  if (stages_.cycle().ends_first && !was_cut_) limit_.expectEnough();
   limit_.setTaken(memoryBytes());
   beginSecondHalf(solution);
-  findNiches(solution);
+  stages_.findNiches(solution, limit_);
   report(solution);
   end(solution);
   solution.solve_seconds += secondsSince(start);
-  was_cut_ = cycle_ends_first_ && limit_.hasRefusedTime();
+  was_cut_ = stages_.cycle().ends_first && limit_.hasRefusedTime();
   return !was_cut_;
 }
 
@@ -119,18 +104,18 @@ void PairCycle::putOffNiches(PairSolution& solution) {
   }
   beginSecondHalf(solution);
   carried_.clear();
-  carried_.reserve(niches().capacity());
-  for (const NicheRecord& record : niches()) {
+  carried_.reserve(stages_.records().capacity());
+  for (const NicheRecord& record : stages_.records()) {
     if (!record.reported) continue;
     carried_.push_back(record);
-    carryRecord(carried_.back(), *frame_);
+    carryRecord(carried_.back(), stages_.frame());
     carried_.back().niche.origin = NicheOrigin::Inherited;
   }
   std::sort(carried_.begin(), carried_.end(), [](const NicheRecord& l, const NicheRecord& r) {
     if (l.niche.distance != r.niche.distance) return l.niche.distance < r.niche.distance;
     return l.niche.id < r.niche.id;
   });
-  listNiches(carried_, solution);
+  listNiches(stages_.parameters(), carried_, solution);
   reportAlone(solution);
   const Moment last_niches = last_niches_;
   end(solution);
@@ -141,43 +126,47 @@ void PairCycle::putOffNiches(PairSolution& solution) {
 // The answer of the first half is in the frame that A was modelled in, and is given again.
 void PairCycle::beginSecondHalf(PairSolution& solution) {
   const StageTimes stages = solution.stages;
-  clear(solution);
+  clearAnswer(stages_.parameters(), stages_.cycle().number, isWarm(), solution);
   solution.stages = stages;
-  stage_clock_.start();
+  stages_.clock().start();
 }
 
 // Takes what both halves of a cycle need. Returns false for a pose that is not rigid.
 bool PairCycle::begin(const Eigen::Isometry3d& pose, double time, PairSolution& solution, bool is_tracked) {
   limit_.setTaken(memoryBytes());
-  is_tracked_ = is_tracked;
   is_proof_cut_ = false;
-  clear(solution);
+  clearAnswer(stages_.parameters(), stages_.cycle().number, isWarm(), solution);
   solution.a_from_b = pose;
   const std::optional<Eigen::Isometry3d> rigid = rigidPose(pose);
   if (!rigid) {
     solution.status = SolveStatus::InvalidPose;
     return false;
   }
-  frame_.emplace(*a_, *b_, *rigid);
-  stage_clock_.start();
   now_ = {*rigid, time, true};
-  since_cycle_ = passed(last_cycle_, now_);
-  since_niches_ = passed(last_niches_, now_);
+  PairStages::Cycle& cycle = stages_.cycle();
+  cycle.is_tracked = is_tracked;
+  cycle.is_first = !last_cycle_.known;
+  cycle.is_warm = isWarm();
+  cycle.since_last = passed(last_cycle_, now_);
+  cycle.since_niches = passed(last_niches_, now_);
+  cycle.last_niches_pose = last_niches_.pose;
+  stages_.begin(*rigid);
   return true;
 }
 
 void PairCycle::end(PairSolution& solution) {
-  stage_clock_.lap(SolveStage::Describe, solution.stages);
+  stages_.clock().lap(SolveStage::Describe, solution.stages);
   last_cycle_ = now_;
   if (wantsNiches()) last_niches_ = last_cycle_;
   last_distance_ = solution.distance;
-  padSolution(parameters_, solution);
-  ++cycle_;
+  padSolution(stages_.parameters(), solution);
+  ++stages_.cycle().number;
 }
 
-PairCycle::Passed PairCycle::passed(const Moment& before, const Moment& now) const {
+PairStages::Passed PairCycle::passed(const Moment& before, const Moment& now) const {
   if (!before.known) return {std::numeric_limits<double>::infinity(), 0.0};
-  return {largestDisplacement(b_->bounds(), before.pose, now.pose), std::max(0.0, now.time - before.time)};
+  return {detail::PairMotion(before.pose, now.pose).largestIn(stages_.b().bounds()),
+          std::max(0.0, now.time - before.time)};
 }
 
 void PairCycle::solve(const Eigen::Isometry3d& pose, PairSolution& solution) {
@@ -186,132 +175,21 @@ void PairCycle::solve(const Eigen::Isometry3d& pose, PairSolution& solution) {
   restart();
 }
 
-void PairCycle::findNiches(PairSolution& solution) {
-  if (isRound()) {
-    solveRound(since_niches_, solution);
-  } else if (isExact()) {
-    solveExact(since_niches_, solution);
-  } else {
-    solveNodes(since_niches_, solution);
-  }
-}
-
-void PairCycle::prove(PairSolution& solution) {
-  std::optional<TrianglePair> nearest;
-  if (wantsNiches() && !niches().empty()) {
-    const WitnessPair& witness = niches().front().niche.witness;
-    nearest = TrianglePair{witness.triangle_a, witness.triangle_b};
-  }
-  distance_before_ = last_cycle_.known ? proof_.certificate().distance : kNotComputed;
-  proof_.prove(*frame_, parameters_, nearest, since_cycle_.displacement, limit_);
-  stage_clock_.lap(SolveStage::Prove, solution.stages);
-}
-
-void PairCycle::solveNodes(const Passed& passed, PairSolution& solution) {
-  limit_.allowShare(kShareOfNiches);
-  search_.begin(*a_, *b_, parameters_);
-  followNodePairs(*frame_, search_, passed.displacement, passed.elapsed, archive_, solution.cost, limit_);
-  stage_clock_.lap(SolveStage::Follow, solution.stages);
-  known_.clear();
-  for (const NicheRecord& record : archive_.records()) known_.push_back(record.niche.node_pair);
-  const std::vector<TrialPoint>& found = search_.propose(
-      *frame_, parameters_, known_, {name_, cycle_, isWarm(), false, isWarm()}, solution.cost, limit_);
-  stage_clock_.lap(SolveStage::Propose, solution.stages);
-  admitNodePairs(*frame_, parameters_, search_, found, isWarm(), cycle_, archive_, solution);
-  stage_clock_.lap(SolveStage::Admit, solution.stages);
-}
-
-void PairCycle::solveExact(const Passed& passed, PairSolution& solution) {
-  if (niches_.isUnchanged(passed.displacement)) return archive_.keepUnchanged(passed.elapsed);
-  frame_->openFacets();
-  frame_->pose_error = pose_error_;
-  const ConvexNiches convex = countConvexNiches();
-  const bool are_counted = convex != ConvexNiches::Unknown;
-  if (!is_search_prepared_ && !are_counted && is_tracked_ && parameters_.search_share > 0.0) prepare();
-  limit_.allowShare(kShareOfSearch);
-  if (!proves()) niches_.follow(*frame_, archive_, limit_);
-  stage_clock_.lap(SolveStage::Follow, solution.stages);
-  if (!are_counted && searchIsDue()) propose(solution.cost);
-  if (proves() && (!proof_.isPenetrating() || convex == ConvexNiches::OnlyTheNearest)) {
-    niches_.proposeProven(*frame_, provenOnMeshes(), proof_.isPenetrating());
-  }
-  stage_clock_.lap(SolveStage::Propose, solution.stages);
-  niches_.admit(
-      *frame_, parameters_,
-      {cycle_, last_niches_.pose, passed.elapsed, is_tracked_, cutoffOfMeshes(), convex, cycle_ends_first_},
-      certainDistance(), kShareOfNiches, archive_, solution, limit_);
-  search_.earn(niches_.evolved(), niches_.work(), parameters_.search_share);
-  stage_clock_.lap(SolveStage::Admit, solution.stages);
-  solution.stages[SolveStage::Sweep] = niches_.cost().sweep_seconds;
-  solution.stages[SolveStage::Admit] -= niches_.cost().sweep_seconds;
-}
-
-// Two round solids are convex: their one niche needs no search.
-void PairCycle::solveRound(const Passed& passed, PairSolution& solution) {
-  const bool is_unchanged = passed.displacement == 0.0 && !round_.records().empty();
-  if (!isPairOfShapes()) solveExact(passed, solution);
-  if (is_unchanged && (isPairOfShapes() || niches_.isUnchanged(passed.displacement)))
-    return round_.keepUnchanged(passed.elapsed);
-  round_.update(*frame_, archive_, {cycle_, isWarm() ? passed.displacement : 0.0, passed.elapsed},
-                solution.events);
-}
-
-// The certificate's is between the exact surfaces.
-WitnessPair PairCycle::provenOnMeshes() {
-  const WitnessPair& witness = proof_.certificate().witness;
-  return isRound() ? niches_.refine(*frame_, witness) : witness;
-}
-
-double PairCycle::cutoffOfMeshes() const {
-  return parameters_.cutoff + parameters_.margin() + (isRound() ? RoundNiches::meshExcess(*frame_) : 0.0);
-}
-
-// Niches that none can see, and those of far sides, are not counted; nor what a proof has not reached.
-detail::ConvexNiches PairCycle::countConvexNiches() const {
-  const bool is_proven = proves() && (proof_.certificate().status == CertificateStatus::Proven ||
-                                      (proof_.isPenetrating() && !isRound()));
-  if (!is_proven || parameters_.hidden || parameters_.keep_through_material) return ConvexNiches::Unknown;
-  const NicheRule rule{parameters_.least_prominence, parameters_.prominence_limit, parameters_.margin()};
-  return detail::countConvexNiches(
-      *frame_, rule, certainDistance(),
-      proof_.certificate().status != CertificateStatus::Penetrating && proof_.isSwallowed());
-}
-
-// Whenever a tracked pair has moved. A pose alone has nothing to inherit: there the search is for those that
-// may have to end early.
-bool PairCycle::searchIsDue() const {
-  if (!proves()) return true;
-  if (certainDistance() > cutoffOfMeshes()) return false;  // there is no niche to find
-  return parameters_.search_share > 0.0 && (is_tracked_ || limit_.isTimed());
-}
-
-void PairCycle::propose(SearchCost& cost) {
-  const SearchStage stage{*frame_, parameters_, archive_, search_, niches_, known_};
-  if (proves()) {
-    proposeAsHelper(stage, {name_, cycle_, isWarm(), true, is_tracked_}, cost, limit_);
-  } else {
-    proposeMinima(stage, {name_, cycle_, isWarm(), false, isWarm()}, cost, limit_);
-  }
-}
-
-double PairCycle::certainDistance() const {
-  if (!proves() || proof_.isPenetrating()) return 0.0;
-  return proof_.certificate().lower_bound - proof_.error();
-}
-
 void PairCycle::report(PairSolution& solution) {
   limit_.allowShare(1.0);
   if (!wantsNiches()) {
     reportAlone(solution);
     return reportCompleteness(solution);
   }
-  listNiches(niches(), solution);
+  listNiches(stages_.parameters(), stages_.records(), solution);
   if (proves()) {
-    proof_.report(solution);
+    stages_.proof().report(solution);
   } else {
-    reportNearest(solution);
+    answerByNearest(stages_.frame(), stages_.records(), stages_.nearestProposed(), stages_.isRound(),
+                    solution, limit_);
   }
-  reportMiss(since_niches_.displacement, solution);
+  if (isWarm())
+    solution.search_miss = proves() ? hasMissedNiche(solution.niches) : hasMissedNearest(solution);
   if (!solution.niches.empty() && solution.niches.front().distance == solution.distance) {
     solution.normal_in_a = solution.niches.front().normal_in_a;
     solution.closing_speed = solution.niches.front().closing_speed;
@@ -320,164 +198,56 @@ void PairCycle::report(PairSolution& solution) {
 }
 
 void PairCycle::reportAlone(PairSolution& solution) {
-  proof_.report(solution);
-  if (proof_.isSwallowed() && !parameters_.keep_through_material) return;
+  stages_.proof().report(solution);
+  if (stages_.proof().isSwallowed() && !stages_.parameters().keep_through_material) return;
   NicheRecord nearest;
-  placeRecord(nearest, *frame_, proof_.certificate().witness);
+  placeRecord(nearest, stages_.frame(), stages_.proof().certificate().witness);
   solution.normal_in_a = nearest.niche.normal_in_a;
-  const double elapsed = since_cycle_.elapsed;
-  if (elapsed > 0.0) solution.closing_speed = (distance_before_ - proof_.certificate().distance) / elapsed;
+  const double elapsed = stages_.cycle().since_last.elapsed;
+  if (elapsed > 0.0)
+    solution.closing_speed = (stages_.distanceBefore() - stages_.proof().certificate().distance) / elapsed;
 }
 
-void PairCycle::listNiches(std::vector<NicheRecord>& records, PairSolution& solution) {
-  if (!records.empty()) {
-    records.front().niche.prominence = std::numeric_limits<double>::infinity();
-  }
-  for (NicheRecord& record : records) {
-    if (record.niche.distance > parameters_.cutoff + parameters_.margin()) {
-      ++solution.niches_beyond_cutoff;
-      continue;
-    }
-    if (solution.niches.size() == parameters_.largest_niche_count) {
-      solution.niches_cut = true;
-      continue;
-    }
-    if (&record != &records.front() && std::isinf(record.niche.prominence)) {
-      record.niche.prominence = kNotComputed;  // it was the deepest
-    }
-    if (!record.reported) {
-      solution.events.push_back({NicheEvent::Kind::Birth, record.niche.id, 0});
-      record.reported = true;
-    }
-    solution.niches.push_back(record.niche);
-  }
-}
-
-void PairCycle::reportNearest(PairSolution& solution) {
-  const std::vector<NicheRecord>& records = niches();
-  if (!records.empty()) {
-    const TrackedNiche& nearest = records.front().niche;
-    solution.distance = nearest.distance;
-    solution.point_a_in_a = nearest.point_a_in_a;
-    solution.point_b_in_a = nearest.point_b_in_a;
-    if (nearest.distance == 0.0) {
-      solution.status = SolveStatus::Penetrating;
-      solution.meeting_triangles = TrianglePair{nearest.witness.triangle_a, nearest.witness.triangle_b};
-      return;
-    }
-  }
-  const bool overlap = isRound() ? isRoundContained(*a_, *b_, frame_->a_from_b)
-                                 : isContained(*a_, *b_, frame_->a_from_b, limit_).value_or(false);
-  const MinimumCandidate* known = niches_.nearestProposed();
-  const bool is_known_alone = records.empty() && limit_.hasRefused();
-  if (isExact() && known != nullptr && (overlap || is_known_alone)) {
-    // Not a niche, but still a bound of the distance: through material, or there was no time to find one.
-    const WitnessPair witness = isRound()
-                                    ? refineRoundWitness(*a_, *b_, frame_->a_from_b, {known->a, known->b})
-                                    : frame_->witnessOf(*known);
-    solution.distance = isRound() ? std::sqrt(witness.squared_distance) : known->distance;
-    solution.point_a_in_a = witness.point_a_in_a;
-    solution.point_b_in_a = witness.point_b_in_a;
-  }
-  if (overlap) {
-    solution.status = SolveStatus::Penetrating;
-    solution.surface_distance = solution.distance;
-    solution.distance = 0.0;
-  }
-}
-
-// At level `certified`: what was neither known nor proposed.
-void PairCycle::reportMiss(double displacement, PairSolution& solution) const {
-  if (!isWarm()) return;
-  if (proves()) {
-    solution.search_miss =
-        std::any_of(solution.niches.begin(), solution.niches.end(), [](const TrackedNiche& niche) {
-          return niche.origin == NicheOrigin::FromCones || niche.origin == NicheOrigin::Proven;
-        });
-    return;
-  }
-  const double rounding = kPlateauTolerance * frame_->diameters();
-  solution.search_miss = solution.distance < last_distance_ - displacement - rounding;
+// Its distance is less than the motion since allows the nearest one to have become.
+bool PairCycle::hasMissedNearest(const PairSolution& solution) const {
+  const double rounding = kPlateauTolerance * stages_.frame().diameters();
+  return solution.distance < last_distance_ - stages_.cycle().since_niches.displacement - rounding;
 }
 
 // After the limit the answer is incomplete, even with a finished proof. Where the cycle ended before the
 // pair's own budget, a proof that is finished is an answer in time.
 void PairCycle::reportCompleteness(PairSolution& solution) const {
   const bool is_cut = is_proof_cut_ || limit_.hasRefused();
-  const bool all = (niches_.isFinished() || isPairOfShapes()) && !is_cut;
-  solution.niches_complete = proves() && parameters_.niches_wanted && all && !solution.niches_cut;
+  const bool all = stages_.hasAllNiches() && !is_cut;
+  solution.niches_complete = proves() && stages_.parameters().niches_wanted && all && !solution.niches_cut;
   if (!limit_.hasRefused() || solution.status == SolveStatus::Penetrating) return;
-  if (cycle_ends_first_ && proves() && !limit_.hasRefusedMemory()) return;
+  if (stages_.cycle().ends_first && proves() && !limit_.hasRefusedMemory()) return;
   solution.status = limit_.hasRefusedTime() ? SolveStatus::BudgetExhausted : SolveStatus::MemoryExhausted;
 }
 
-void PairCycle::clear(PairSolution& solution) const {
-  solution.status = SolveStatus::Ok;
-  solution.accuracy = parameters_.accuracy;
-  solution.distance = solution.lower_bound = solution.surface_distance = kNotComputed;
-  solution.signed_distance = kNotComputed;
-  solution.point_a_in_a.setConstant(kNotComputed);
-  solution.point_b_in_a.setConstant(kNotComputed);
-  solution.normal_in_a.setConstant(kNotComputed);
-  solution.closing_speed = kNotComputed;
-  solution.meeting_triangles.reset();
-  solution.niches.clear();
-  solution.events.clear();
-  solution.niches_cut = solution.niches_complete = solution.search_miss = false;
-  solution.niches_beyond_cutoff = 0;
-  solution.cycle = cycle_;
-  solution.warm = isWarm();
-  solution.seed = parameters_.seed;
-  solution.cost = {};
-  solution.proof_cost = {};
-  solution.stages = {};
-}
-
-void PairCycle::prepare() {
-  if (!wantsNiches()) return;
-  search_.prepare(*a_, *b_, parameters_);
-  is_search_prepared_ = true;
-  archive_.reserve(kUsualNiches);
-  known_.reserve(kUsualNiches);
-  const NormalSides sides = parameters_.keep_through_material ? NormalSides::Both : NormalSides::Outside;
-  for (const BodyMesh* body : {a_.get(), b_.get()}) {
-    if (isExact()) body->prepareNiches(sides);
-  }
-}
-
 void PairCycle::reset() {
-  archive_.clear();
-  round_.clear();
-  proof_.clear();
-  niches_.clear();
-  search_.restart();
+  stages_.reset();
   last_cycle_.known = last_niches_.known = false;
   was_cut_ = true;
 }
 
 void PairCycle::restart() {
   reset();
-  archive_.beginIdsAfter(largest_used_id_);
-  round_.beginIdsAfter(largest_used_id_);
-  cycle_ = 0;
+  stages_.beginIdsAfter(largest_used_id_);
+  stages_.cycle().number = 0;
   limit_ = {};
 }
 
 void PairCycle::setParameters(const TrackerParameters& parameters) {
-  parameters.validate(name_);
   // Node niches and refined ones are not the same places.
-  const bool changes_niches = parameters.accuracy != parameters_.accuracy;
-  parameters_ = parameters;
+  const bool changes_niches = parameters.accuracy != stages_.parameters().accuracy;
+  stages_.setParameters(parameters);
   if (changes_niches || (wantsNiches() && !last_niches_.known)) reset();
-  proof_.renew();
-  niches_.renew();
-  search_.forgetParameters();
+  stages_.renew();
 }
 
 std::size_t PairCycle::memoryBytes() const {
-  return sizeof(PairCycle) + archive_.records().capacity() * sizeof(NicheRecord) +
-         known_.capacity() * sizeof(TrialPoint) + proof_.memoryBytes() + niches_.memoryBytes() +
-         search_.memoryBytes() + round_.memoryBytes() + carried_.capacity() * sizeof(NicheRecord);
+  return sizeof(PairCycle) + stages_.memoryBytes() + carried_.capacity() * sizeof(NicheRecord);
 }
 
 }  // namespace concave_distance

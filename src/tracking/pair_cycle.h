@@ -8,17 +8,11 @@
 
 #include "concave_distance/tracking/pair_solution.h"
 #include "concave_distance/tracking/tracker_parameters.h"
-#include "distance_proof.h"
-#include "exact_niches.h"
-#include "niche_archive.h"
-#include "niche_placement.h"
-#include "niche_search.h"
-#include "round_niches.h"
+#include "pair_stages.h"
 
 namespace concave_distance {
 
-/// Runs the cycle of one pair: its stages, in their order, and what goes from one to the next. Each stage
-/// keeps what it needs of the last cycle itself.
+/// Runs the cycle of one pair, whole or in two halves: its limits, its stages and its answer.
 class PairCycle {
  public:
   /// @param pose_error metres, how far the poses may be off (RecentredPair::poseError())
@@ -35,14 +29,14 @@ class PairCycle {
   /// Solves at one pose alone.
   void solve(const Eigen::Isometry3d& pose, PairSolution& solution);
   /// Makes what the first cycle would make otherwise.
-  void prepare();
+  void prepare() { stages_.prepare(); }
   void reset();
   void restart();
   void setParameters(const TrackerParameters& parameters);
 
-  NicheSearch& search() { return search_; }
-  const std::string& name() const { return name_; }
-  const TrackerParameters& parameters() const { return parameters_; }
+  NicheSearch& search() { return stages_.search(); }
+  const std::string& name() const { return stages_.name(); }
+  const TrackerParameters& parameters() const { return stages_.parameters(); }
   std::size_t memoryBytes() const;
 
  private:
@@ -51,72 +45,28 @@ class PairCycle {
     double time = 0.0;
     bool known = false;
   };
-  /// Says what has passed since another cycle.
-  struct Passed {
-    double displacement;  ///< no point of B has moved farther, metres; infinite without a cycle before
-    double elapsed;       ///< seconds; 0 where not known
-  };
-  Passed passed(const Moment& before, const Moment& now) const;
+  PairStages::Passed passed(const Moment& before, const Moment& now) const;
 
   bool begin(const Eigen::Isometry3d& pose, double time, PairSolution& solution, bool is_tracked);
   void beginSecondHalf(PairSolution& solution);
   void end(PairSolution& solution);
-  void findNiches(PairSolution& solution);
-  void solveNodes(const Passed& passed, PairSolution& solution);
-  void solveExact(const Passed& passed, PairSolution& solution);
-  void solveRound(const Passed& passed, PairSolution& solution);
-  WitnessPair provenOnMeshes();
-  double cutoffOfMeshes() const;
-  void prove(PairSolution& solution);
-  void propose(SearchCost& cost);
-  detail::ConvexNiches countConvexNiches() const;
-  bool searchIsDue() const;
-  double certainDistance() const;
   void report(PairSolution& solution);
   void reportAlone(PairSolution& solution);
-  void reportNearest(PairSolution& solution);
-  void reportMiss(double displacement, PairSolution& solution) const;
+  bool hasMissedNearest(const PairSolution& solution) const;
   void reportCompleteness(PairSolution& solution) const;
-  void listNiches(std::vector<NicheRecord>& records, PairSolution& solution);
-  void clear(PairSolution& solution) const;
-  bool proves() const { return provesDistance(parameters_.accuracy); }
-  bool isExact() const { return parameters_.accuracy != AccuracyLevel::Nodes; }
+  bool proves() const { return stages_.proves(); }
   bool isWarm() const { return wantsNiches() ? last_niches_.known : last_cycle_.known; }
-  bool wantsNiches() const { return !proves() || parameters_.niches_wanted; }
-  /// At the exact levels the solids count, at `nodes` their meshes.
-  bool isRound() const { return isExact() && (a_->shape() != nullptr || b_->shape() != nullptr); }
-  bool isPairOfShapes() const { return isExact() && a_->shape() != nullptr && b_->shape() != nullptr; }
-  /// That are reported.
-  std::vector<NicheRecord>& niches() { return isRound() ? round_.records() : archive_.records(); }
+  bool wantsNiches() const { return stages_.wantsNiches(); }
 
-  std::string name_;
-  std::shared_ptr<const BodyMesh> a_;
-  std::shared_ptr<const BodyMesh> b_;
-  std::optional<PairFrame> frame_;  ///< of the present cycle
-  TrackerParameters parameters_;
+  PairStages stages_;
   std::uint64_t largest_used_id_;
-  double pose_error_;
-  DistanceProof proof_;
-  NicheSearch search_;
-  ExactNiches niches_;
-  NicheArchive archive_;           ///< of the meshes
-  RoundNiches round_;              ///< of the solids, where there are any
-  std::vector<TrialPoint> known_;  ///< node pairs, of the cycle
-  std::uint64_t cycle_ = 0;
-  bool is_tracked_ = true;  ///< of the present cycle
-  bool is_search_prepared_ = false;
-  bool cycle_ends_first_ = false;     ///< before the pair's own time budget
   bool is_proof_cut_ = false;         ///< in the first half of the present cycle
   bool was_cut_ = true;               ///< by the end of a cycle, when it last had time; or it never had
   std::vector<NicheRecord> carried_;  ///< of putOffNiches()
   Moment now_;
-  Passed since_cycle_{};   ///< at now_
-  Passed since_niches_{};  ///< at now_
   Moment last_cycle_;
   Moment last_niches_;  ///< the last cycle that wanted niches
   double last_distance_ = kNotComputed;
-  double distance_before_ = kNotComputed;  ///< the proof's, of the cycle before
-  StageClock stage_clock_;
   WorkLimit limit_;  ///< of the present cycle
 };
 

@@ -6,10 +6,11 @@
 #include <utility>
 
 #include "contact/motion_between.h"
+#include "distance/kernels/pair_motion.h"
 #include "region_forces.h"
 #include "region_identity.h"
-#include "relative_motion.h"
 #include "require_bodies.h"
+#include "rigid_pose.h"
 
 namespace concave_distance {
 namespace {
@@ -77,7 +78,7 @@ struct PairEffects::State {
 
   void identify(const PairSolution& solution, PairContacts& contacts) {
     const double displacement =
-        in_contact ? largestDisplacement(b->bounds(), last_pose, solution.a_from_b) : 0.0;
+        in_contact ? detail::PairMotion(last_pose, solution.a_from_b).largestIn(b->bounds()) : 0.0;
     identity.update(solution.niches, displacement, contacts.regions);
   }
 

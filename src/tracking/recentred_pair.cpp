@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "distance/bound/certificate.h"
-#include "relative_motion.h"
+#include "rigid_pose.h"
 
 namespace concave_distance {
 namespace {

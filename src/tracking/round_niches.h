@@ -35,6 +35,8 @@ class RoundNiches {
   std::vector<NicheRecord>& records() { return archive_.records(); }
   const std::vector<NicheRecord>& records() const { return archive_.records(); }
   void clear();
+  /// Says that the next niches of the meshes are others: ids then go on by place.
+  void forgetMeshNiches() { members_.clear(); }
   std::size_t memoryBytes() const;
 
  private:

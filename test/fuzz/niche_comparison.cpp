@@ -181,7 +181,8 @@ class Comparison {
     std::size_t left_out = 0;
     for (std::size_t i = 0; i < niches_.size(); ++i) {
       if (std::find(listed_.begin(), listed_.end(), i) != listed_.end() || !isWanted(niches_[i])) continue;
-      if (shells_cross_ && !(niches_[i].distance > truth_.tolerance())) continue;
+      const bool is_meeting = !(niches_[i].distance > truth_.tolerance());
+      if (shells_cross_ && is_meeting && truth_.isMeetingInSight(niches_[i]) != Clarity::Yes) continue;
       ++left_out;
       if (is_full && niches_[i].distance > last - truth_.tolerance()) continue;
       const std::vector<WitnessPoints> corners = truth_.minimisers(niches_[i].cells.front());

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numeric>
+
+#include "support/wide_overlap.h"
 
 namespace concave_distance::test {
 namespace {
@@ -25,13 +28,6 @@ WidePoint movedPoint(const Eigen::Isometry3d& pose, const WidePoint& p) {
 
 WideTriangle movedTriangle(const Eigen::Isometry3d& pose, const WideTriangle& t) {
   return {movedPoint(pose, t[0]), movedPoint(pose, t[1]), movedPoint(pose, t[2])};
-}
-
-/// A point of A's frame in B's. The pose is orthonormal up to rounding.
-WidePoint movedBack(const Eigen::Isometry3d& pose, const WidePoint& p) {
-  const WidePoint v{p.x - pose(0, 3), p.y - pose(1, 3), p.z - pose(2, 3)};
-  const auto row = [&](int i) { return pose(0, i) * v.x + pose(1, i) * v.y + pose(2, i) * v.z; };
-  return {row(0), row(1), row(2)};
 }
 
 long double distanceOfTriangles(const WideTriangle& l, const WideTriangle& r) {
@@ -88,17 +84,22 @@ void NicheEnumeration::measurePasses() {
   }
 }
 
-/// The overlap of convex solids is connected: their surfaces meet in one niche.
+/// Joins places where the surfaces meet in one part of the overlap.
 void NicheEnumeration::joinOverlap() {
   const long double highest =
       std::max(a_.highestOverPlane() / a_.diameter(), b_.highestOverPlane() / b_.diameter());
-  if (!(highest <= kBarelyConcave)) return;
-  is_overlap_clear_ = highest <= kConvex;
-  std::size_t first = distance_.size();
+  is_overlap_clear_ = highest <= kConvex || highest > kBarelyConcave;
+  if (!is_overlap_clear_) return;
+  WideSurface surface_a{triangles_a_, {}};
+  WideSurface surface_b{triangles_b_, {}};
+  for (std::size_t t = 0; t < triangles_a_.size(); ++t) surface_a.is_closed.push_back(a_.isOnClosedShell(t));
+  for (std::size_t t = 0; t < triangles_b_.size(); ++t) surface_b.is_closed.push_back(b_.isOnClosedShell(t));
+  const std::vector<int> parts = overlapPartsOfPairs(surface_a, surface_b, tolerance_);
+  std::map<int, std::size_t> first_of_part;
   for (std::size_t i = 0; i < distance_.size(); ++i) {
-    if (distance_[i] > tolerance_) continue;
-    if (first == distance_.size()) first = i;
-    if (is_overlap_clear_) passes_.push_back({std::max(distance_[first], distance_[i]), first, i});
+    if (parts[i] < 0 || distance_[i] > tolerance_) continue;
+    const std::size_t first = first_of_part.emplace(parts[i], i).first->second;
+    passes_.push_back({std::max(distance_[first], distance_[i]), first, i});
   }
 }
 
@@ -273,7 +274,7 @@ Clarity NicheEnumeration::leaves(const WideBody& body, const WidePoint& from, co
   }
   if (first <= 8.0L * end) return Clarity::Unclear;
   const WidePoint middle = from + along * (0.5L * first / distance);
-  const long double winding = body.winding(is_of_b ? movedBack(pose_, middle) : middle);
+  const long double winding = body.winding(is_of_b ? movedBack(middle) : middle);
   if (std::abs(winding - std::round(winding)) > 0.01L) return Clarity::Unclear;
   return winding > 0.5L ? Clarity::No : Clarity::Yes;
 }

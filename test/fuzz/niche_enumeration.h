@@ -7,8 +7,9 @@
 #include "fuzz/wide_body.h"
 
 /// Every niche of a pair of surfaces by enumeration, for niche_hunt: the distance of all pairs of triangles
-/// and of all that neighbours have in common, in long double, and 0-dimensional persistence over them. No
-/// normal cones, no floods, no code of the package.
+/// and of all that neighbours have in common, in long double, and 0-dimensional persistence over them; places
+/// where the bodies meet are joined by the parts of their overlap (wide_overlap.h). No normal cones, no
+/// floods, no code of the package.
 namespace concave_distance::test {
 
 /// What the segment between two points is like. Unclear: rounding decides.
@@ -55,6 +56,9 @@ class NicheEnumeration {
 
   /// Closest points of the two triangles of a cell: the corners of that set, and their mean.
   std::vector<WitnessPoints> minimisers(std::size_t cell) const;
+  /// Whether some place of a niche at distance 0, where triangles cross, lies in no material of other shells
+  /// of the same body; No also where no triangles cross.
+  Clarity isMeetingInSight(const EnumeratedNiche& niche) const;
   /// Whether no triangle meets the open segment.
   Clarity isVisible(const WitnessPoints& points) const;
   /// Whether the segment leaves both bodies outwards, or rather does not run into material of closed shells.
@@ -71,6 +75,8 @@ class NicheEnumeration {
   void spread(EnumeratedNiche& niche) const;
   /// Cells that are connected with one below a level.
   void appendPlateau(std::size_t cell, long double level, std::vector<std::size_t>& cells) const;
+  /// A point of A's frame in B's. The pose is orthonormal up to rounding.
+  WidePoint movedBack(const WidePoint& p) const;
   Clarity leaves(const WideBody& body, const WidePoint& from, const WidePoint& to, bool is_of_b) const;
 
   const WideBody& a_;

@@ -6,6 +6,7 @@
 #include "concave_distance/mesh/repair/repair_mesh.h"
 #include "fuzz/niche_enumeration.h"
 #include "fuzz/niche_shapes.h"
+#include "fuzz/overlap_family.h"
 #include "support/body_pairs.h"
 #include "support/mesh_variants.h"
 #include "support/random_solids.h"
@@ -274,6 +275,12 @@ NicheScene drawNearlyConvex(RandomEngine& engine) {
   return scene;
 }
 
+NicheScene drawOverlap(RandomEngine& engine) {
+  NicheScene scene = drawOverlappingPair(engine);
+  walk(engine, 0.5 * scene.b.diameter(), true, scene);
+  return scene;
+}
+
 /// Draws until the enumeration can afford it and repair leaves something; the surfaces are as from a file.
 template <NicheScene (*draw)(RandomEngine&)>
 NicheScene affordable(RandomEngine& engine) {
@@ -307,7 +314,9 @@ const std::vector<NicheFamily>& nicheFamilies() {
       {"unions", "unions of convex solids that cross each other", affordable<drawUnions>},
       {"concave", "random concave solids", affordable<drawConcave>},
       {"nearly_convex", "solids with dents and bumps of 1e-15 to 0.3", affordable<drawNearlyConvex>},
-      {"rings", "rings with lobes: many niches", affordable<drawRings>}};
+      {"rings", "rings with lobes: many niches", affordable<drawRings>},
+      {"overlap", "rods through plates, combs, rings, hollow bodies, sheets, unions",
+       affordable<drawOverlap>}};
   return families;
 }
 

@@ -15,7 +15,7 @@ struct NicheScene {
   SurfaceMesh b;
   std::vector<Eigen::Isometry3d> poses;
   /// Shells of one body cross. Of triangles that cross, the enumeration knows what lies inside, too: what is
-  /// hidden is not compared.
+  /// hidden is not compared, and places where bodies meet only where the enumeration sees them.
   bool shells_cross = false;
 };
 

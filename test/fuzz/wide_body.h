@@ -34,6 +34,7 @@ class WideBody {
   const std::vector<Joint>& shellContacts() const { return joints_; }
   /// False for a triangle with material of other shells on both sides.
   bool isSurface(std::size_t triangle) const { return is_surface_[triangle]; }
+  bool isOnClosedShell(std::size_t triangle) const { return is_closed_[shell_of_[triangle]]; }
   /// Sum of the winding numbers of all closed shells around a point: material where it is above 0.
   long double winding(const WidePoint& point) const;
   /// How far a vertex lies above the plane of a triangle at most, metres: at most 0 for a convex solid.

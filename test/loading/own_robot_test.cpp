@@ -106,7 +106,7 @@ TEST_F(OwnRobot, ASearchPathDoesNotReplaceAPackageThatIsKnown) {
 TEST_F(OwnRobot, AutomaticCutoffIsAFifthOfTheRobotsDiagonal) {
   // 10 x 1 x 1: the origins of the outer boxes are 9 apart.
   const std::string urdf = row(3.0, 3.0, 3.0);
-  EXPECT_TRUE(std::isinf(loadAlone(urdf).pairs.front().settings.tracker.cutoff)) << "only when asked for";
+  EXPECT_TRUE(std::isinf(allPairs(loadAlone(urdf)).front().settings.tracker.cutoff)) << "only when asked for";
   options.automatic_cutoff = true;
   const Scene scene = loadAlone(urdf);
   const double wanted = 0.2 * std::sqrt(102.0);

@@ -293,7 +293,7 @@ TEST_F(RobotScene, TheSrdfOfAnotherRobotIsNotAppliedOrAppliedWithAWarning) {
   const std::string disables = "<disable_collisions link1='a' link2='c'/>";
   const std::string unknown = "<disable_collisions link1='a' link2='gone'/>";
   const Scene renamed = loadRobot(urdf, "", "<robot name='other'>" + disables + "</robot>");
-  EXPECT_TRUE(renamed.pairs.empty());
+  EXPECT_TRUE(allPairs(renamed).empty());
   EXPECT_TRUE(renamed.problems.empty());
   ASSERT_EQ(renamed.warnings.size(), 1U);
   EXPECT_TRUE(mentions(renamed.warnings[0], "parameter semantics: it is for robot 'other', read for 'arm'"));
@@ -305,7 +305,7 @@ TEST_F(RobotScene, TheSrdfOfAnotherRobotIsNotAppliedOrAppliedWithAWarning) {
     ASSERT_EQ(scene.problems.size(), 1U) << srdf;
     EXPECT_TRUE(mentions(scene.problems[0].message, "it is the SRDF of robot")) << scene.problems[0].message;
   }
-  EXPECT_TRUE(loadRobot(urdf, "", "<robot name='arm'>" + disables + unknown + "</robot>").pairs.empty());
+  EXPECT_TRUE(allPairs(loadRobot(urdf, "", "<robot name='arm'>" + disables + unknown + "</robot>")).empty());
 }
 
 TEST_F(RobotScene, BrokenSrdfIsAProblemAndTheRobotIsServedWithoutIt) {

@@ -31,7 +31,7 @@ class SceneEffects : public test::SceneTest {
 };
 
 TEST_F(SceneEffects, NothingIsComputedUnlessItIsNamed) {
-  EXPECT_FALSE(load(kTwoBalls).pairs.at(0).settings.effects.any());
+  EXPECT_FALSE(allPairs(load(kTwoBalls)).at(0).settings.effects.any());
   EXPECT_FALSE(effectsOf("none").any());
 }
 
@@ -70,7 +70,7 @@ TEST_F(SceneEffects, APairsEffectsAreLaidOverTheDefaults) {
   const Scene without = load(kTwoBalls +
                              "defaults: {effects: {normal_force: hertz}}\n"
                              "pairs:\n  - {between: [a, b], effects: none}\n");
-  EXPECT_FALSE(without.pairs.at(0).settings.effects.any());
+  EXPECT_FALSE(allPairs(without).at(0).settings.effects.any());
 }
 
 TEST_F(SceneEffects, WrongNamesAndValuesAreRefusedWithWhatIsAllowed) {
@@ -144,7 +144,7 @@ TEST_F(SceneEffects, TheModelThatAParameterIsLaidOverCounts) {
   EXPECT_TRUE(mentions(text, "and the model is spring_dashpot")) << text;
   Scene served = load(kTwoBalls + defaults);
   setEffects(served, "*", "{normal_force: {stiffness: 7}}");
-  EXPECT_EQ(served.pairs.at(0).settings.effects.normal_force->stiffness, 7.0);
+  EXPECT_EQ(allPairs(served).at(0).settings.effects.normal_force->stiffness, 7.0);
   EXPECT_THROW(setEffects(served, "*", "{normal_force: {foundation_stiffness: 7}}"), Error);
   EXPECT_THROW(setEffects(served, "*", "{normal_force: {model: hertz, stiffness: 7}}"), Error);
 }

@@ -332,9 +332,9 @@ TEST_F(SceneFile, SettingsForExpertsAreRefusedAmongTheOthers) {
 
 TEST_F(SceneFile, NumbersAreReadAsYamlWritesThem) {
   const auto cutoff_of = [&](const std::string& text) {
-    return load(kBall + "  - {name: box, box: {size: [1, 1, 1]}}\ndefaults: {cutoff: " + text +
-                ", max_edge_length: 9}\n")
-        .pairs.at(0)
+    return allPairs(load(kBall + "  - {name: box, box: {size: [1, 1, 1]}}\ndefaults: {cutoff: " + text +
+                         ", max_edge_length: 9}\n"))
+        .at(0)
         .settings.tracker.cutoff;
   };
   EXPECT_EQ(cutoff_of("2"), 2.0);

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "support/scene_fixture.h"
 
 namespace concave_distance::scene_pairs_test {
@@ -225,6 +227,25 @@ TEST_F(ScenePairs, ALongListOfLostPairsSaysHowManyMore) {
   const Scene scene = load(bodies(names) + "pairs: [{between: [missing, '*']}]\n");
   ASSERT_EQ(scene.problems.size(), 1U);
   EXPECT_TRUE(mentions(scene.problems[0].message, "missing/b9 and 4 more")) << scene.problems[0].message;
+}
+
+TEST_F(ScenePairs, MoreThanAThousandWithoutACutoffGetOneAndNamedOnesDoNot) {
+  Names names;
+  for (int i = 0; i < 45; ++i) names.push_back("b" + std::to_string(i));
+  const std::string few = bodies(names);  // 990 pairs
+  EXPECT_TRUE(std::isinf(load(few).defaults.pairs.tracker.cutoff));
+  names.push_back("b45");
+  const Scene many = load(bodies(names) +
+                          "pairs: [{between: ['*', '*']}, {between: ['b1*', b2], warning_distance: 1},"
+                          " {between: [b0, b1]}]\n");
+  EXPECT_EQ(many.pairs.size(), 1U);
+  EXPECT_TRUE(std::isinf(many.pairs[0].settings.tracker.cutoff));
+  EXPECT_NEAR(ruledPair(many, 3, 4)->settings.tracker.cutoff, 0.35, 1e-12)
+      << "a fifth of the root of 3, two digits";
+  EXPECT_EQ(ruledPair(many, 1, 2)->settings.tracker.cutoff, 1.0) << "an alert needs the distance";
+  EXPECT_TRUE(hasNote(many, "cutoff 0.35 m of the pairs without one, because there are 1034"));
+  EXPECT_FALSE(hasNote(load(bodies(names) + "pairs: [{between: ['*', '*'], cutoff: 9}]\n"),
+                       "of the pairs without one"));
 }
 
 TEST_F(ScenePairs, GroupsAndDefaultsStayWithTheSceneForBodiesThatComeLater) {

@@ -175,9 +175,10 @@ TEST(NearPairs, BeyondTheLimitAreCutWithABoundAndTheNearestComeFirst) {
   double nearest_cut = 1e9;
   for (std::size_t i = 0; i < 6; ++i) {
     for (std::size_t j = i + 1; j < 6; ++j) {
-      const bool is_tracked = std::any_of(tracker.pairs().begin(), tracker.pairs().end(), [&](const auto& pair) {
-        return std::minmax(pair->origin->body_a, pair->origin->body_b) == std::minmax(i, j);
-      });
+      const bool is_tracked =
+          std::any_of(tracker.pairs().begin(), tracker.pairs().end(), [&](const auto& pair) {
+            return std::minmax(pair->origin->body_a, pair->origin->body_b) == std::minmax(i, j);
+          });
       const double distance = poses[j]->translation().x() - poses[i]->translation().x() - 1.0;
       if (!is_tracked) nearest_cut = std::min(nearest_cut, distance);
     }

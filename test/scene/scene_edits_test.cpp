@@ -221,7 +221,8 @@ TEST(PairRules, CountWhatTheyWatch) {
     for (int i = 0; i < 12; ++i) {
       PairPartners partners;
       const std::string name = "b" + std::to_string(i);
-      if (i > 2 && below(3) == 0) partners.names = {"b" + std::to_string(below(static_cast<unsigned>(i))), "b?"};
+      if (i > 2 && below(3) == 0)
+        partners.names = {"b" + std::to_string(below(static_cast<unsigned>(i))), "b?"};
       if (i > 2 && partners.names.empty() && below(3) == 0) partners.may_touch = {"b1", "b2"};
       partners.none = partners.names.empty() && partners.may_touch.empty() && below(6) == 0;
       PairSettings settings;

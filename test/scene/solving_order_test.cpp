@@ -31,6 +31,19 @@ TEST(SolvingOrder, TakesAPairWithoutADistanceForTheNearest) {
   EXPECT_FALSE(isMoreUrgent({0.0, 10.0, 0}, {kNotComputed, kNotComputed, 0}));
 }
 
+TEST(SolvingOrder, TakesLongListsAfterTheOthersButForThoseThatHaveWaited) {
+  const auto long_list = [](double distance, std::uint32_t waited, bool owns_cycle) {
+    return PairUrgency{distance, 0.0, waited, true, owns_cycle};
+  };
+  EXPECT_TRUE(isMoreUrgent({0.9, 0.0, 0}, long_list(0.1, 0, false)));
+  EXPECT_TRUE(isMoreUrgent({0.9, 0.0, 0}, long_list(0.1, 0, true))) << "even where it owns the cycle";
+  EXPECT_TRUE(isMoreUrgent(long_list(0.9, 0, true), long_list(0.1, 0, false)));
+  EXPECT_TRUE(isMoreUrgent(long_list(0.1, 0, false), long_list(0.2, 0, false))) << "the nearest of equals";
+  constexpr std::uint32_t kOverdue = kLongestWait * kCyclesOfLong;
+  EXPECT_TRUE(isMoreUrgent({0.9, 0.0, 0}, long_list(0.1, kOverdue - 1, false)));
+  EXPECT_TRUE(isMoreUrgent(long_list(0.9, kOverdue, false), {0.1, 0.0, 0}));
+}
+
 TEST(SolvingOrder, LetsNoPairStarve) {
   EXPECT_TRUE(isMoreUrgent({5.0, -1.0, kLongestWait}, {0.0, 9.0, kLongestWait - 1}));
   EXPECT_TRUE(isMoreUrgent({5.0, -1.0, kLongestWait + 1}, {0.0, 9.0, kLongestWait}));

@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "concave_distance/mesh/surface/primitives.h"
+#include "distance/kernels/pair_motion.h"
 #include "simulation/scene_builder.h"
 #include "support/hunt_crossley_rebound.h"
-#include "tracking/relative_motion.h"
 
 namespace concave_distance::contact_motion_test {
 namespace {
@@ -162,7 +162,8 @@ TEST(ContactMotion, NoPointMovesFartherInAStepThanTheProvenDistanceAndTheAllowan
   for (int i = 0; i < 3000; ++i) {
     const SimulatedPair before = simulation.pairs()[0];
     simulation.step();
-    const double displacement = largestDisplacement(box, before.a_from_b, simulation.pairs()[0].a_from_b);
+    const double displacement =
+        detail::PairMotion(before.a_from_b, simulation.pairs()[0].a_from_b).largestIn(box);
     ASSERT_LE(displacement, before.lower_bound + 2e-4 + 1e-12) << i;
   }
   EXPECT_GT(simulation.counters().contact_steps, 0U);

@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numeric>
 
+#include "mesh/surface/mesh_topology.h"
 #include "support/exact_triangle_distance.h"
+#include "support/wide_overlap.h"
 
 namespace concave_distance::test {
 namespace {
@@ -147,6 +150,15 @@ std::vector<Neighbours> neighbourPairs(const SurfaceMesh& mesh, const Eigen::Iso
   return pairs;
 }
 
+WideSurface wideSurface(const BodyMesh& body, const std::vector<TrianglePoints>& corners) {
+  WideSurface surface;
+  for (std::size_t t = 0; t < corners.size(); ++t) {
+    surface.triangles.push_back(exactTriangle<long double>(corners[t]));
+    surface.is_closed.push_back(body.topology().isOnClosedShell(TriangleIndex{t}));
+  }
+  return surface;
+}
+
 }  // namespace
 
 std::vector<BruteForceMinimum> bruteForceMinima(const BodyMesh& a, const BodyMesh& b,
@@ -197,6 +209,14 @@ std::vector<BruteForceMinimum> bruteForceMinima(const BodyMesh& a, const BodyMes
     for (std::size_t t = 0; t < corners_a.size(); ++t) {
       join(t * count_b + pair.l, t * count_b + pair.r, pair.shared, corners_a[t]);
     }
+  }
+  const std::vector<int> parts =
+      overlapPartsOfPairs(wideSurface(a, corners_a), wideSurface(b, corners_b), rounding);
+  std::map<int, std::size_t> first_of_part;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    if (parts[i] < 0) continue;
+    const std::size_t first = first_of_part.emplace(parts[i], i).first->second;
+    passes.push_back({std::max(distance[first], distance[i]), first, i});
   }
   std::sort(passes.begin(), passes.end(), [](const Pass& l, const Pass& r) { return l.level < r.level; });
 

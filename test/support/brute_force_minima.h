@@ -23,7 +23,8 @@ struct BruteForceMinimum {
 
 /// Minima up to `cutoff` of at least that prominence, ascending by distance. Passes up to (1 +
 /// least_prominence) times the cutoff are known, higher ones are infinite. Minima whose pass is not higher
-/// than they are by `rounding`, metres, are one; `plateau`, metres, is what the sets of minimisers may rise.
+/// than they are by `rounding`, metres, are one, and so are places where the bodies meet in one part of their
+/// overlap; `plateau`, metres, is what the sets of minimisers may rise.
 /// Prominences are those of distances and passes less `margin`, metres: minima within it that a path within
 /// it joins are one, and those that stay have an infinite prominence. O(pairs) time and memory.
 std::vector<BruteForceMinimum> bruteForceMinima(const BodyMesh& a, const BodyMesh& b,

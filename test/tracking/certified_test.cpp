@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "base/constants.h"
+#include "concave_distance/base/error.h"
 #include "concave_distance/tracking/pair_tracker.h"
 #include "distance/bound/certificate.h"
 #include "distance/kernels/surface_walk.h"
@@ -415,6 +416,22 @@ TEST(Certified, RefusesTolerancesAndBudgetsThatMeanNothing) {
   expect_refused(&TrackerParameters::absolute_tolerance, {-1e-9, nan, kInfinity});
   expect_refused(&TrackerParameters::relative_tolerance, {-0.1, 1.1, nan});
   expect_refused(&TrackerParameters::time_budget, {-1.0, 0.0, nan});
+}
+
+TEST(Certified, SaysWhichTimeBudgetsThereAre) {
+  for (const double seconds : {-1.0, 0.0, std::numeric_limits<double>::quiet_NaN(), -kInfinity}) {
+    TrackerParameters parameters = certified();
+    parameters.time_budget = seconds;
+    try {
+      parameters.validate("pair p");
+      ADD_FAILURE() << seconds << " was taken";
+    } catch (const Error& error) {
+      const std::string message = error.what();
+      for (const char* part : {"pair p", "time_budget", "greater than 0 (s)"}) {
+        EXPECT_NE(message.find(part), std::string::npos) << part << " in " << message;
+      }
+    }
+  }
 }
 
 }  // namespace

@@ -8,10 +8,10 @@
 #include <set>
 
 #include "concave_distance/mesh/surface/primitives.h"
+#include "distance/kernels/pair_motion.h"
 #include "support/body_pairs.h"
 #include "support/concave_shapes.h"
 #include "support/enumeration.h"
-#include "tracking/relative_motion.h"
 
 namespace concave_distance::pair_tracker_test {
 namespace {
@@ -88,8 +88,9 @@ TEST(PairTracker, TheDistanceChangesNoMoreThanAnyPointMoves) {
       now[niche.id] = niche.distance;
     }
     if (k > 0) {
-      const double displacement = largestDisplacement(
-          scene.b->surface().boundingBox(), CombScene::pose(0.02 * (k - 1)), CombScene::pose(0.02 * k));
+      const double displacement =
+          detail::PairMotion(CombScene::pose(0.02 * (k - 1)), CombScene::pose(0.02 * k))
+              .largestIn(scene.b->surface().boundingBox());
       for (const auto& [id, distance] : now) {
         const auto known = before.find(id);
         if (known != before.end()) {

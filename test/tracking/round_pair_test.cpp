@@ -5,12 +5,16 @@
 #include <map>
 #include <sstream>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "concave_distance/loading/load_scene.h"
 #include "concave_distance/tracking/pair_effects.h"
 #include "concave_distance/tracking/pair_tracker.h"
 #include "distance/bound/round_certificate.h"
+#include "distance/kernels/triangle_distance.h"
 #include "support/body_pairs.h"
+#include "support/brute_force_minima.h"
 #include "support/count_allocations.h"
 #include "support/csv_table.h"
 #include "support/round_bodies.h"
@@ -138,6 +142,115 @@ TEST(RoundPair, AnyPoseIsBracketedAndSwapsAndEveryNicheIsALocalMinimum) {
   }
 }
 
+/// A tetrahedron or a prism in place of the centre or the axis, turned otherwise than the package's own.
+SurfaceMesh thinCore(const RoundShape& shape) {
+  const double thin = 1e-9 * shape.radius;
+  std::vector<Vector3d> vertices;
+  std::vector<TriangleNodes> triangles;
+  const auto add = [&](std::uint32_t x, std::uint32_t y, std::uint32_t z) {
+    triangles.push_back({NodeIndex{x}, NodeIndex{y}, NodeIndex{z}});
+  };
+  if (shape.half_length == 0.0) {
+    vertices = {{thin, 0.0, 0.0}, {-thin, thin, 0.0}, {-thin, -thin, 0.0}, {0.0, 0.0, thin}};
+    add(0, 2, 1), add(0, 1, 3), add(1, 2, 3), add(2, 0, 3);
+  } else {
+    for (const double z : {-shape.half_length, shape.half_length}) {
+      for (int k = 0; k < 3; ++k)
+        vertices.push_back({thin * std::cos(1.0 + 2.1 * k), thin * std::sin(1.0 + 2.1 * k), z});
+    }
+    add(0, 2, 1), add(3, 4, 5);
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      const std::uint32_t next = (k + 1) % 3;
+      add(k, next, next + 3), add(k, next + 3, k + 3);
+    }
+  }
+  return SurfaceMesh(std::move(vertices), std::move(triangles), "core");
+}
+
+TrianglePoints cornersOf(const SurfaceMesh& mesh, std::uint32_t triangle) {
+  return {mesh.corner(TriangleIndex{triangle}, 0), mesh.corner(TriangleIndex{triangle}, 1),
+          mesh.corner(TriangleIndex{triangle}, 2)};
+}
+
+/// Returns whether a segment meets a triangle of the mesh elsewhere than at its beginning.
+bool isBlocked(const SurfaceMesh& mesh, const Vector3d& from, const Vector3d& to) {
+  const Vector3d way = to - from;
+  for (std::size_t t = 0; t < mesh.triangleCount(); ++t) {
+    const TrianglePoints corners = cornersOf(mesh, static_cast<std::uint32_t>(t));
+    const Vector3d normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
+    const double along = normal.dot(way);
+    if (std::abs(along) < 1e-14 * normal.norm()) continue;
+    const double at = normal.dot(corners[0] - from) / along;
+    if (at < 1e-6 || at > 1.0) continue;
+    const Vector3d point = from + at * way;
+    bool is_inside = true;
+    for (std::size_t k = 0; k < 3; ++k) {
+      is_inside =
+          is_inside && (corners[(k + 1) % 3] - corners[k]).cross(point - corners[k]).dot(normal) >= 0.0;
+    }
+    if (is_inside) return true;
+  }
+  return false;
+}
+
+// Every local minimum between the mesh and the centre or axis, by brute force, whose segment no triangle
+// meets.
+TEST(RoundPair, TheListIsThatOfBruteForceForTheCore) {
+  RandomEngine engine(29);
+  int listed = 0;
+  for (std::uint32_t i = 0; i < 60; ++i) {
+    const RoundShape shape =
+        i % 2 == 0 ? test::sphereOf(0.15) : test::roundShape(RoundKind::Capsule, 0.08, 0.2);
+    const Body round = test::makeRoundBody(shape);
+    const Body core = makeBody(thinCore(shape));
+    const Body mesh = makeBody(test::concaveShape(i));
+    const Isometry3d pose = test::randomPose(engine, 1.0);
+    const PairSolution found = solveOnce("list", mesh, round, atLevel(AccuracyLevel::Certified), pose);
+    if (found.status == SolveStatus::Penetrating || found.distance < 0.01) continue;
+    ASSERT_TRUE(found.niches_complete) << i;
+    std::vector<double> expected;
+    double doubtful = 0.0;
+    for (const test::BruteForceMinimum& minimum :
+         test::bruteForceMinima(*mesh, *core, pose, 10.0, 0.0095, 1e-12, 1e-9, shape.radius)) {
+      const TrianglePoints on_core = cornersOf(core->surface(), minimum.triangle_b);
+      const TrianglePairDistance closest =
+          triangleDistance(cornersOf(mesh->surface(), minimum.triangle_a),
+                           {pose * on_core[0], pose * on_core[1], pose * on_core[2]});
+      if (isBlocked(mesh->surface(), closest.point_a, closest.point_b)) continue;
+      if (minimum.prominence < 0.0105) {
+        doubtful = 1.0;
+        continue;
+      }
+      expected.push_back(minimum.distance - shape.radius);
+    }
+    if (doubtful > 0.0) continue;
+    ASSERT_EQ(found.niches.size(), expected.size()) << i;
+    for (std::size_t k = 0; k < expected.size(); ++k) {
+      EXPECT_NEAR(found.niches[k].distance, expected[k], 2e-9 * shape.radius) << i;
+    }
+    listed += static_cast<int>(expected.size());
+  }
+  EXPECT_GT(listed, 60);
+}
+
+TEST(RoundPair, ABallThatSinksInAndComesOutKeepsItsNiche) {
+  const Body table = makeBody(makeBox({2.0, 2.0, 0.5}));
+  for (const Body& round : {ball(), test::makeRoundBody(test::roundShape(RoundKind::Capsule, 0.1, 0.2))}) {
+    PairTracker tracker("sink", table, round, atLevel(AccuracyLevel::Certified));
+    PairSolution solution;
+    for (int i = 0; i < 120; ++i) {
+      const double height = 0.03 * std::cos(0.1 * i);
+      tracker.update(turned(0.5 * 3.14159265358979323846, Vector3d::UnitY(), {0.1, 0.2, 0.35 + height}),
+                     0.01 * i, solution);
+      ASSERT_EQ(solution.status, height > 1e-12 ? SolveStatus::Ok : SolveStatus::Penetrating) << i;
+      ASSERT_NEAR(solution.distance, std::max(0.0, height), 1e-14);
+      ASSERT_EQ(solution.niches.size(), 1U) << i;
+      ASSERT_EQ(solution.niches[0].id, 1U) << i;
+      ASSERT_TRUE(solution.niches_complete) << i;
+    }
+  }
+}
+
 TEST(RoundPair, TwoSolidsHaveOneProvenNiche) {
   const Body capsule = test::makeRoundBody(test::roundShape(RoundKind::Capsule, 0.1, 0.3));
   PairTracker tracker("solids", capsule, ball(), atLevel(AccuracyLevel::Certified));
@@ -193,8 +306,12 @@ TEST(RoundPair, APoseThatIsNoneIsRefused) {
 TEST(RoundPair, AWarmCycleAllocatesNothing) {
   const Body comb = std::make_shared<BodyMesh>("comb", test::makeComb(5), BodyMeshOptions());
   const Body cylinder = test::makeRoundBody(test::roundShape(RoundKind::Cylinder, 0.06, 0.2));
-  for (const Body& other : {comb, ball()}) {
-    PairTracker tracker("warm", other, cylinder, atLevel(AccuracyLevel::Certified));
+  const Body capsule = test::makeRoundBody(test::roundShape(RoundKind::Capsule, 0.02, 0.1));
+  for (const auto& [other, round_body] : {std::pair{comb, cylinder},
+                                          {ball(), cylinder},
+                                          {comb, test::makeRoundBody(test::sphereOf(0.02))},
+                                          {capsule, comb}}) {
+    PairTracker tracker("warm", other, round_body, atLevel(AccuracyLevel::Certified));
     PairSolution solution;
     std::size_t before = 0;
     for (int round = 0; round < 4; ++round) {

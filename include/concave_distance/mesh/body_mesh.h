@@ -57,6 +57,14 @@ struct RecentredBody {
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< of the frame of `mesh`, body frame, metres
 };
 
+/// Holds the centre of a sphere or the segment of a capsule's axis, which the solid is a ball swept along, as
+/// a thin closed mesh around it: no point of the mesh is farther than `thickness` from that.
+struct RoundCore {
+  std::shared_ptr<const BodyMesh> mesh;  ///< frame of the shape; nullptr: the body is no such solid
+  double radius = 0.0;                   ///< metres, of the ball
+  double thickness = 0.0;                ///< metres
+};
+
 /// Holds what the search keeps with a body. It is made at its first use and freed with the body.
 class BodyAttachment {
  public:
@@ -93,6 +101,8 @@ class BodyMesh {
   const RecentredBody& recentred() const;
   /// The mesh of recentred(), or this one.
   const BodyMesh& asSolved() const { return recentred().mesh ? *recentred().mesh : *this; }
+  /// The core of shape(). Built at the first call, for all threads.
+  const RoundCore& core() const;
   /// Memory of the parts made so far, the search's grid among them.
   std::size_t memoryBytes() const;
 

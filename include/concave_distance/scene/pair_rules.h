@@ -20,7 +20,7 @@ enum class PairOrder : std::uint8_t {
   Later
 };
 
-/// What the rules of a scene say of the pairs of two classes of bodies.
+/// Holds what the rules of a scene say of the pairs of two classes of bodies.
 struct PairRule {
   bool is_watched = false;  ///< unless a filter leaves the pair out
   bool is_enabled = true;
@@ -36,18 +36,20 @@ struct PairRules {
   std::size_t classes = 1;
   /// Row by row: the class of the earlier body, then that of the later one, as Scene::bodies has them.
   std::vector<PairRule> table = std::vector<PairRule>(1);
-  std::vector<PairSettings> settings;                      ///< by PairRule::settings; see there for the first
+  std::vector<PairSettings> settings;  ///< by PairRule::settings; see there for the first
   /// Pairs of SceneBody::serial, the lesser first, ascending: what adjacency and SRDFs leave out.
   std::shared_ptr<const std::vector<std::pair<std::uint64_t, std::uint64_t>>> filtered;
 
-  const PairRule& of(std::size_t earlier, std::size_t later) const { return table[earlier * classes + later]; }
+  const PairRule& of(std::size_t earlier, std::size_t later) const {
+    return table[earlier * classes + later];
+  }
   PairRule& of(std::size_t earlier, std::size_t later) { return table[earlier * classes + later]; }
 };
 
 /// Says which earlier bodies a body that was added while the scene ran is watched against, besides what the
 /// table of classes says. The later of two such bodies decides. Body A of these pairs is the added one.
 struct AddedBodyRule {
-  bool all = false;  ///< every body but `bodies`; false: `bodies` alone
+  bool all = false;                          ///< every body but `bodies`; false: `bodies` alone
   std::unordered_set<std::uint64_t> bodies;  ///< SceneBody::serial
 
   bool watches(std::uint64_t serial) const { return (bodies.count(serial) != 0) != all; }

@@ -141,7 +141,7 @@ struct SceneDefaults {
 
 struct Scene {
   NamedList<SceneBody> bodies;
-  PairList pairs;   ///< those named by their two bodies, each followed at any distance; not all that there are
+  PairList pairs;  ///< those named by their two bodies, each followed at any distance; not all that there are
   PairRules rules;  ///< of all others
   std::vector<SceneProblem> problems;
   std::vector<std::string> notes;     ///< repairs and filters applied, one line each

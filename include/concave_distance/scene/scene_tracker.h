@@ -64,8 +64,8 @@ class SceneTracker {
   CycleCounts update(const BodyPoses& poses, const DemandOf& demand_of,
                      WorkLimit::Clock::time_point end = kNoCycleEnd);
 
-  /// One cycle with the same demand of all enabled pairs. @param world_from_body one pose for each of scene.bodies, each rigid
-  /// (rotation orthonormal within 1e-3); empty where it is not known
+  /// One cycle with the same demand of all enabled pairs. @param world_from_body one pose for each of
+  /// scene.bodies, each rigid (rotation orthonormal within 1e-3); empty where it is not known
   /// @param time seconds of these poses, from any beginning
   /// @param demand of each pair
   /// @throws Error for another number of poses than the scene has bodies

@@ -71,8 +71,8 @@ struct TrackedPair {
   bool put_off = false;          ///< the end of the cycle has left niches or effects of the answer unfinished
   std::uint64_t largest_id = 0;  ///< of a niche reported so far
   std::uint32_t cycles_put_off = 0;  ///< in a row, since the list was finished or had most of a cycle's time
-  std::uint32_t cycles_unfinished = 0;  ///< in a row, since the list was finished
-  double seconds_to_finish = 0.0;  ///< that finish() is expected to take, by those that were done to the end
+  std::uint32_t cycles_unfinished = 0;           ///< in a row, since the list was finished
+  double seconds_to_finish = 0.0;                ///< that finish() is expected to take, by what it last took
   std::shared_ptr<PreparationTask> preparation;  ///< of its bodies in the background; nullptr: not begun
 
   bool solved() const { return state == PairState::Solved; }
@@ -121,10 +121,10 @@ struct TrackedPair {
   std::unique_ptr<PairTracker> tracker_;  ///< made when the pair is first watched
   PairInput solved_input_;
   std::optional<double> beyond_since_;  ///< time at which it went beyond its cutoff with niches
-  bool stale_parameters_ = false;  ///< the tracker has to be given the settings again
-  bool must_solve_ = true;         ///< even when the input is the last one
-  bool needs_niches_ = false;      ///< between prove() and finish(), as the next
-  bool is_proof_cut_ = false;      ///< by the end of the cycle
+  bool stale_parameters_ = false;       ///< the tracker has to be given the settings again
+  bool must_solve_ = true;              ///< even when the input is the last one
+  bool needs_niches_ = false;           ///< between prove() and finish(), as the next
+  bool is_proof_cut_ = false;           ///< by the end of the cycle
 };
 
 }  // namespace concave_distance

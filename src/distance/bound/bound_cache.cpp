@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "distance/kernels/pair_motion.h"
+
 namespace concave_distance {
 namespace {
 
@@ -16,16 +18,13 @@ constexpr std::uint32_t kLongestWait = 32;
 
 void BoundCache::advance(const BoundingVolumeHierarchy& b, const Eigen::Matrix3d& rotation,
                          const Eigen::Vector3d& offset, double rounding) {
-  const Eigen::Matrix3d turn = rotation - rotation_;
-  const Eigen::Vector3d shift = offset - offset_;
+  const detail::PairMotion motion(rotation_, offset_, rotation, offset, rounding);
   rotation_ = rotation;
   offset_ = offset;
-  if (turn.isZero(0.0) && shift.isZero(0.0)) return;
-  // The largest stretch of a difference of two rotations is its Frobenius norm over the square root of 2.
-  const double stretch = turn.norm() * 0.70710678118654757;
+  if (motion.isStill()) return;
   for (std::size_t subtree = 0; subtree < moved_distances_.size(); ++subtree) {
     const OrientedBox box = b.box(b.subtrees()[subtree]);
-    moved_distances_[subtree] += (turn * box.centre + shift).norm() + stretch * box.half.norm() + rounding;
+    moved_distances_[subtree] += motion.largestWithin(box.centre, box.half.norm());
   }
 }
 

@@ -12,6 +12,7 @@
 // - witness_refinement goes from a pair of triangles down to the nearest pair around it (adjacent_triangles).
 // - minimum_candidate is a pair of triangles that may hold a local minimum, and on which of its features.
 // - pair_frame holds both bodies at one pose in one frame, with the rounding that distances in it carry.
+// - pair_motion says how far points of one body have moved as seen from the other between two poses.
 // - round_kernels, round_pair_distance and cylinder_pair_search measure spheres, capsules and cylinders.
 //
 // It keeps nothing from pose to pose and does not know what a niche is.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 
 #include "concave_distance/base/indices.h"
 #include "concave_distance/distance/witness.h"
@@ -19,6 +20,8 @@ struct MinimumCandidate {
   Feature feature_b = Feature::Face;
   Eigen::Vector3d point_a = Eigen::Vector3d::Zero();  ///< in the pair's frame (PairFrame)
   Eigen::Vector3d point_b = Eigen::Vector3d::Zero();
+  static constexpr std::uint32_t kNoPart = 0xffffffffU;
+  std::uint32_t part = kNoPart;  ///< of the bodies' overlap, for which it stands
 };
 
 /// Returns a candidate on two triangles whose points are not known.

@@ -1,19 +1,13 @@
 #include "minima_tracker.h"
 
-#include <limits>
-
 #include "base/run_in_order.h"
 #include "cone_sweep.h"
 
 namespace concave_distance::detail {
 namespace {
 
-/// A front that has grown by this factor since it was begun is begun anew: it looks at needlessly small
-/// groups.
-constexpr std::size_t kLargestGrowth = 3;
 constexpr std::size_t kUsualMinima = 64;
 constexpr std::size_t kUsualExpired = 1024;
-constexpr std::size_t kSmallGrowth = 256;  // of the smallest, pairs
 /// Steps of the one sweep after which few open pairs are known to hold much.
 constexpr std::size_t kManySteps = 2048;
 
@@ -29,12 +23,14 @@ void append(std::vector<T>& to, const std::vector<T>& from, WorkLimit& limit) {
 /// One call of collect().
 class MinimaTracker::Stage {
  public:
-  Stage(MinimaTracker& front, const PairFrame& frame, NormalSides sides, double cutoff, WorkLimit& limit)
+  Stage(MinimaTracker& front, const PairFrame& frame, NormalSides sides, double cutoff, WorkLimit& limit,
+        std::size_t most_comparisons)
       : front_(front),
         frame_(frame),
         sides_(sides),
         cutoff_(cutoff),
         limit_(limit),
+        most_comparisons_(most_comparisons),
         sweep_(frame, sides, cutoff, front.motion_, front.lists_, limit) {
     sweep_.keepIn(front.queues_, limit);
   }
@@ -76,8 +72,10 @@ class MinimaTracker::Stage {
 
   /// Compares what has expired and opens what is excluded no more. False when the limit was reached.
   bool run() {
-    const std::vector<SlotPair>& open = front_.lists_.open;
+    const SweepLists& lists = front_.lists_;
+    const std::vector<SlotPair>& open = lists.open;
     while (!open.empty() || expiredCount() > 0) {
+      if (std::size_t{lists.groups} + lists.features > most_comparisons_) return false;
       const bool much_expired = expiredCount() >= front_.sliced_from_;
       if ((much_expired || open.size() >= ConeSlices::kManyOpen) && canSlice()) {
         if (limit_.isOver()) return false;
@@ -160,13 +158,15 @@ class MinimaTracker::Stage {
   NormalSides sides_;
   double cutoff_;
   WorkLimit& limit_;
+  std::size_t most_comparisons_;
   ConeSweep sweep_;
 };
 
 bool MinimaTracker::collect(const PairFrame& frame, NormalSides sides, double cutoff,
-                            std::vector<MinimumCandidate>& candidates, WorkLimit& limit) {
+                            std::vector<MinimumCandidate>& candidates, WorkLimit& limit,
+                            std::size_t most_comparisons) {
   counts_ = {};
-  Stage stage(*this, frame, sides, cutoff, limit);
+  Stage stage(*this, frame, sides, cutoff, limit, most_comparisons);
   if (stage.isEmpty()) return true;
   lists_.groups = lists_.features = lists_.measured = 0;
   lists_.candidates.swap(candidates);
@@ -187,7 +187,7 @@ bool MinimaTracker::collect(const PairFrame& frame, NormalSides sides, double cu
   // A sweep that a limit has ended grows until it is whole.
   if (kept_at_begin_ == 0) {
     kept_at_begin_ = done ? queues_.size() : 0;
-  } else if (queues_.size() > kLargestGrowth * kept_at_begin_ + kSmallGrowth) {
+  } else if (hasGrown(kLargestGrowth)) {
     valid_ = false;
   }
   count();

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "base/expiry_queue.h"
@@ -28,6 +30,8 @@ class MinimaTracker {
     std::uint32_t undecided = 0;  ///< of the live ones, those that hold none
     std::uint32_t slices = 0;     ///< that idle threads could look at
     bool began_anew = false;
+
+    std::size_t comparisons() const { return std::size_t{groups} + features; }
   };
 
   /// @param sliced_from expired pairs from which on they are looked at in slices
@@ -40,9 +44,13 @@ class MinimaTracker {
   }
 
   /// Appends at least one triangle pair of every local minimum between 0 and `cutoff` (metres).
+  /// @param most_comparisons after which it ends, too
   /// @return false when the limit was reached: minima may be missing, and the next call goes on
   bool collect(const PairFrame& frame, NormalSides sides, double cutoff,
-               std::vector<MinimumCandidate>& candidates, WorkLimit& limit);
+               std::vector<MinimumCandidate>& candidates, WorkLimit& limit,
+               std::size_t most_comparisons = std::numeric_limits<std::size_t>::max());
+  /// Returns whether it has grown so much since it was begun that it looks at needlessly small groups.
+  bool hasOutgrown() const { return hasGrown(kLargeGrowth); }
 
   const Counts& counts() const { return counts_; }
   std::size_t memoryBytes() const;
@@ -62,6 +70,14 @@ class MinimaTracker {
  private:
   class Stage;
   void count();
+  bool hasGrown(std::size_t factor) const {
+    return kept_at_begin_ != 0 && queues_.size() > factor * kept_at_begin_ + kSmallGrowth;
+  }
+
+  static constexpr std::size_t kLargeGrowth = 3;
+  /// A front that has grown by this factor is begun anew at once.
+  static constexpr std::size_t kLargestGrowth = 16;
+  static constexpr std::size_t kSmallGrowth = 256;  ///< of the smallest, pairs
 
   std::size_t sliced_from_;
   MovedDistances motion_;

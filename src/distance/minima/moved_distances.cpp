@@ -3,11 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "distance/kernels/pair_motion.h"
+
 namespace concave_distance::detail {
 namespace {
-
-using Eigen::Matrix3d;
-using Eigen::Vector3d;
 
 /// A moved distance has room for 2^18 sizes or radians.
 constexpr double kCountsPerUnit = 0x1.0p44;
@@ -75,29 +74,24 @@ bool MovedDistances::add(std::uint32_t index, double by) {
 }
 
 bool MovedDistances::advance(const PairFrame& frame) {
-  const Matrix3d turn = frame.rotation - rotation_;
-  const Vector3d shift = frame.offset - offset_;
-  if (turn.isZero(0.0) && shift.isZero(0.0)) return true;
-  // The largest stretch of a difference of two rotations by an angle t is 2 sin(t / 2): its Frobenius norm
-  // over sqrt(2).
-  const double stretch = turn.norm() * 0.70710678118654757;
-  const double radians = 2.0 * std::asin(std::min(1.0, 0.5 * stretch)) + kRounding;
+  const PairMotion of_b(rotation_, offset_, frame.rotation, frame.offset, rounding_);
+  if (of_b.isStill()) return true;
+  const PairMotion of_a(rotation_.transpose(), -(rotation_.transpose() * offset_), frame.rotation.transpose(),
+                        -(frame.rotation.transpose() * frame.offset), rounding_);
+  const double radians = of_b.angle() + kRounding;
   bool has_room = add(kTurn, radians);
-  const Matrix3d turn_in_b = frame.rotation.transpose() - rotation_.transpose();
-  const Vector3d shift_in_b = rotation_.transpose() * offset_ - frame.rotation.transpose() * frame.offset;
-  const auto add_subtrees = [&](const NormalConeTree& tree, std::uint32_t first, const Matrix3d& difference,
-                                const Vector3d& by) {
+  const auto add_subtrees = [&](const NormalConeTree& tree, std::uint32_t first, const PairMotion& motion) {
     for (std::size_t subtree = 0; subtree < tree.subtrees().size(); ++subtree) {
       const NormalConeTree::Subtree& of = tree.subtrees()[subtree];
-      const double metres = (difference * of.centre + by).norm() + stretch * of.arm + rounding_;
+      const double metres = motion.largestWithin(of.centre, of.arm);
       for (std::size_t k = 0; k < kRadiusCount; ++k) {
         const auto index = first + static_cast<std::uint32_t>(subtree * kRadiusCount + k);
         has_room = add(index, metres + radians * radii_[k]) && has_room;
       }
     }
   };
-  add_subtrees(*a_, 1, turn_in_b, shift_in_b);
-  add_subtrees(*b_, first_of_b_, turn, shift);
+  add_subtrees(*a_, 1, of_a);
+  add_subtrees(*b_, first_of_b_, of_b);
   updateRates();
   rotation_ = frame.rotation;
   offset_ = frame.offset;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "distance/kernels/pair_motion.h"
+
 namespace concave_distance::detail {
 namespace {
 
@@ -44,12 +46,6 @@ Part partOf(const PairFrame& frame, Side side, const SharedElement& element) {
   return part;
 }
 
-/// A point of the body that moves, as the other sees it.
-Vector3d seen(Side fixed_in, const Eigen::Matrix3d& rotation, const Vector3d& offset, const Vector3d& point) {
-  return fixed_in == Side::A ? Vector3d(rotation * point + offset)
-                             : Vector3d(rotation.transpose() * (point - offset));
-}
-
 /// The gap between an element's parts along a direction from A to B.
 double gapAlong(const PairFrame& frame, const SharedElement& shared, const Vector3d& direction) {
   return partOf(frame, Side::B, shared).leastAlong(frame.rotation.transpose() * direction) +
@@ -79,14 +75,13 @@ struct BasinBoundary::Radii {
 class BasinBoundary::Bound {
  public:
   Bound(const PairFrame& frame, const Batch& batch, const Vector3d& moving_centre) {
-    const Vector3d motion = seen(batch.fixed_in, frame.rotation, frame.offset, moving_centre) -
-                            seen(batch.fixed_in, batch.rotation, batch.offset, moving_centre);
-    const double turn = (frame.rotation - batch.rotation).norm() * std::sqrt(0.5);
-    const double reach = motion.norm();
-    const double rounding = kSingleError * (reach + turn * static_cast<double>(batch.largest));
+    const PairMotion motion = motionSince(batch, frame);
+    const Vector3d displacement = motion.of(moving_centre);
+    const double reach = displacement.norm();
+    const double rounding = kSingleError * (reach + motion.stretch() * static_cast<double>(batch.largest));
     less_ = 4.0 * frame.rounding + rounding + (batch.directed ? 0.0 : reach);
-    turn_ = static_cast<float>(turn);
-    along_ = batch.directed ? Eigen::Vector3f(motion.cast<float>()) : Eigen::Vector3f::Zero();
+    turn_ = static_cast<float>(motion.stretch());
+    along_ = batch.directed ? Eigen::Vector3f(displacement.cast<float>()) : Eigen::Vector3f::Zero();
   }
 
   /// Returns what of() must be above for a level (metres) to be certain.
@@ -104,6 +99,15 @@ class BasinBoundary::Bound {
   }
 
  private:
+  /// Returns the motion of the body that counts as the one that moves.
+  static PairMotion motionSince(const Batch& batch, const PairFrame& frame) {
+    if (batch.fixed_in == Side::A) {
+      return {batch.rotation, batch.offset, frame.rotation, frame.offset};
+    }
+    return {batch.rotation.transpose(), -(batch.rotation.transpose() * batch.offset),
+            frame.rotation.transpose(), -(frame.rotation.transpose() * frame.offset)};
+  }
+
   double less_;  ///< metres
   float turn_;
   Eigen::Vector3f along_;
@@ -188,8 +192,8 @@ bool BasinBoundary::add(BoundaryPool& pool, const PairFrame& frame, const Bounda
 
 /// Takes out of the batch what may be nearer than the level: it is looked at along its direction, and
 /// measured where that does not suffice.
-std::uint32_t BasinBoundary::look(BoundaryPool& pool, const PairFrame& frame, Batch& batch,
-                                  double level) const {
+std::uint32_t BasinBoundary::look(BoundaryPool& pool, const PairFrame& frame, Batch& batch, double level,
+                                  WorkLimit& limit) const {
   const Bound bound(frame, batch, centres_[batch.fixed_in == Side::A ? 1 : 0]);
   const float needed = bound.needed(level);
   std::uint32_t measured = 0;
@@ -199,6 +203,10 @@ std::uint32_t BasinBoundary::look(BoundaryPool& pool, const PairFrame& frame, Ba
     const Row bounds = bound.of(chunk);
     for (std::uint32_t k = chunk.count; k-- > 0;) {
       if (bounds[k] > needed) continue;
+      if (limit.isOverNow()) {
+        pool.has_unmeasured = true;
+        continue;
+      }
       BoundaryPool::Entry entry = takeFrom(chunk, k);
       const auto enter = [&](const Vector3d& direction, double gap) {
         const Vector3d along =
@@ -263,11 +271,13 @@ void BasinBoundary::rebase(BoundaryPool& pool, const PairFrame& frame) {
   }
 }
 
-std::uint32_t BasinBoundary::takeCrossed(BoundaryPool& pool, const PairFrame& frame, double level) {
+std::uint32_t BasinBoundary::takeCrossed(BoundaryPool& pool, const PairFrame& frame, double level,
+                                         WorkLimit& limit) {
   pool.anew.clear();
   pool.crossed.clear();
+  pool.has_unmeasured = false;
   std::uint32_t measured = 0;
-  for (std::uint32_t i = 0; i < used_; ++i) measured += look(pool, frame, batches_[i], level);
+  for (std::uint32_t i = 0; i < used_; ++i) measured += look(pool, frame, batches_[i], level, limit);
   if (pool.anew.empty()) return measured;
   std::uint32_t rest = 0;
   for (std::uint32_t i = 0; i < used_; ++i) {

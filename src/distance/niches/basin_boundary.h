@@ -25,8 +25,9 @@ class BasinBoundary {
            WorkLimit& limit);
 
   /// Moves the elements over which the distance is below `level` (m) from the boundary to `pool.crossed`.
+  /// After the limit, elements that have to be measured stay, and pool.has_unmeasured says so.
   /// @return elements measured
-  std::uint32_t takeCrossed(BoundaryPool& pool, const PairFrame& frame, double level);
+  std::uint32_t takeCrossed(BoundaryPool& pool, const PairFrame& frame, double level, WorkLimit& limit);
 
   std::size_t size(const BoundaryPool& pool) const;
 
@@ -52,7 +53,8 @@ class BasinBoundary {
   static BoundaryPool::Entry takeFrom(BoundaryPool::Chunk& chunk, std::uint32_t k);
   /// @return false without memory
   static bool put(BoundaryPool& pool, Batch& batch, const BoundaryPool::Entry& entry, WorkLimit& limit);
-  std::uint32_t look(BoundaryPool& pool, const PairFrame& frame, Batch& batch, double level) const;
+  std::uint32_t look(BoundaryPool& pool, const PairFrame& frame, Batch& batch, double level,
+                     WorkLimit& limit) const;
   void rebase(BoundaryPool& pool, const PairFrame& frame);
 
   std::array<Eigen::Vector3d, 2> centres_;

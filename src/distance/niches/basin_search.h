@@ -113,15 +113,19 @@ class BasinSearch {
   /// The level (metres) to which a search for a pass has risen.
   double highestLevel() const { return std::sqrt(highest_); }
 
-  /// Calls visit(boundary step) for what encloses the facet pairs visited and those inside.
-  template <typename IsInside, typename Visit>
-  void forEachBoundaryStep(const IsInside& is_inside, const Visit& visit) const {
-    for (const BoundaryStep& step : boundary_) {
-      if (table_.find(step.beyond_a, step.beyond_b) == PairTable::kAbsent &&
-          !is_inside(step.beyond_a, step.beyond_b)) {
-        visit(step);
-      }
-    }
+  /// Returns the index of a facet pair in facet_pairs(), or kNone.
+  std::uint32_t indexOf(TriangleIndex a, TriangleIndex b) const { return table_.find(a, b); }
+  /// Says of each of facet_pairs() whether it was only reached: the search was cut before it looked at it.
+  void findReached(std::vector<char>& is_reached) const {
+    is_reached.assign(facet_pairs_.size(), 0);
+    for (const Reached& reached : reached_) is_reached[reached.facet_pair] = 1;
+  }
+
+  /// Returns the steps beyond the level, of which isBeyond() says whether they enclose the facet pairs
+  /// visited: some lead to one that was reached by another step.
+  const std::vector<BoundaryStep>& boundarySteps() const { return boundary_; }
+  bool isBeyond(const BoundaryStep& step) const {
+    return table_.find(step.beyond_a, step.beyond_b) == PairTable::kAbsent;
   }
 
   std::size_t memoryBytes() const {

@@ -64,6 +64,7 @@ class BoundaryPool {
   // Results of the last BasinBoundary::takeCrossed().
   std::vector<Directed> anew;
   std::vector<BoundaryElement> crossed;
+  bool has_unmeasured = false;
 
  private:
   static constexpr std::uint32_t kBlockSize = 64;

@@ -7,6 +7,17 @@
 
 namespace concave_distance::detail {
 
+namespace {
+
+/// Less work than this is always done to renew a front, in comparisons.
+constexpr std::size_t kLeastRenewed = 8192;
+
+NormalSides sidesOf(const LocalMinimaRequest& request) {
+  return request.through_material ? NormalSides::Both : NormalSides::Outside;
+}
+
+}  // namespace
+
 bool isCandidate(const PairFrame& frame, const LocalMinimaRequest& request,
                  const MinimumCandidate& candidate) {
   return candidate.distance <= request.cutoff + frame.rounding &&
@@ -26,15 +37,43 @@ bool CandidateCollector::collect(const PairFrame& frame, const LocalMinimaReques
   if (request.given != nullptr) {
     if (!limit.makeRoom(candidates, request.given->size())) return false;
     appendCandidates(frame, request, *request.given, candidates);
+    const bool is_met = std::any_of(candidates.begin(), candidates.end(), [&](const MinimumCandidate& c) {
+      return c.distance <= meetingTolerance(frame);
+    });
+    if (is_met) return collectOverlap(frame, request, candidates, cost, limit);
+    overlap_.findNone();
     return true;
   }
+  const bool may_meet = !(request.certain_distance > 4.0 * frame.touchingDistance());
   if (isFar(frame, request.rule) &&
       collectFarCandidates(frame, request.cutoff, distant_components_, candidates, limit)) {
+    overlap_.findNone();
     return true;
   }
-  if (!(request.certain_distance > 4.0 * frame.touchingDistance())) {
-    collectMeetingPairs(frame, open_, candidates, cost, limit);
+  if (!may_meet) overlap_.findNone();
+  const bool has_overlap = !may_meet || collectOverlap(frame, request, candidates, cost, limit);
+  return collectMinima(frame, request, candidates, cost, limit) && has_overlap;
+}
+
+bool CandidateCollector::collectOverlap(const PairFrame& frame, const LocalMinimaRequest& request,
+                                        std::vector<MinimumCandidate>& candidates, LocalMinimaCost& cost,
+                                        WorkLimit& limit) {
+  const bool all = overlap_.find(frame, request.is_tracked, cost, limit);
+  const std::vector<OverlapParts::Part>& parts = overlap_.parts();
+  if (!limit.makeRoom(candidates, parts.size())) {
+    overlap_.findNone();
+    return false;
   }
+  for (std::uint32_t k = 0; k < parts.size(); ++k) {
+    candidates.push_back(candidateOn(parts[k].triangles.a, parts[k].triangles.b, parts[k].distance));
+    candidates.back().part = k;
+  }
+  return all;
+}
+
+bool CandidateCollector::collectMinima(const PairFrame& frame, const LocalMinimaRequest& request,
+                                       std::vector<MinimumCandidate>& candidates, LocalMinimaCost& cost,
+                                       WorkLimit& limit) {
   switch (shell_pairs_.collect(frame, request, candidates, limit)) {
     case ConvexShellPairs::Outcome::Complete:
       return true;
@@ -43,7 +82,7 @@ bool CandidateCollector::collect(const PairFrame& frame, const LocalMinimaReques
     case ConvexShellPairs::Outcome::Unknown:
       break;
   }
-  const NormalSides sides = request.through_material ? NormalSides::Both : NormalSides::Outside;
+  const NormalSides sides = sidesOf(request);
   if (request.is_tracked) {
     const bool done = front_.collect(frame, sides, request.cutoff, candidates, limit);
     cost.node_pairs += front_.counts().groups;
@@ -52,6 +91,21 @@ bool CandidateCollector::collect(const PairFrame& frame, const LocalMinimaReques
   }
   collectConeCandidates(frame, sides, request.cutoff, candidates, cost, limit);
   return !limit.isOver();
+}
+
+void CandidateCollector::renew(const PairFrame& frame, const LocalMinimaRequest& request,
+                               LocalMinimaCost& cost, const WorkLimit& limit) {
+  if (!request.is_tracked || !front_.hasOutgrown()) return;
+  WorkLimit own = limit;  // what it refuses is no part of the answer
+  const std::size_t most = std::max(kLeastRenewed, front_.counts().comparisons());
+  next_candidates_.clear();
+  const bool is_whole =
+      next_front_.collect(frame, sidesOf(request), request.cutoff, next_candidates_, own, most);
+  cost.node_pairs += next_front_.counts().groups;
+  cost.feature_pairs += next_front_.counts().features;
+  if (!is_whole) return;
+  std::swap(front_, next_front_);
+  next_front_.clear();
 }
 
 }  // namespace concave_distance::detail

@@ -7,7 +7,7 @@
 #include "distance/minima/minima_tracker.h"
 #include "distant_components.h"
 #include "local_minima.h"
-#include "meeting_pairs.h"
+#include "overlap_parts.h"
 
 namespace concave_distance::detail {
 
@@ -25,20 +25,37 @@ class CandidateCollector {
   /// @param candidates replaced, in no order, some more than once. @return false when the limit was reached
   bool collect(const PairFrame& frame, const LocalMinimaRequest& request,
                std::vector<MinimumCandidate>& candidates, LocalMinimaCost& cost, WorkLimit& limit);
+  /// Returns where the bodies meet, at the pose of the last collect().
+  const OverlapParts& overlap() const { return overlap_; }
+  /// Begins the front of cones anew beside the one that has grown, as long as the limit allows and for as
+  /// much work as that one took; a later call goes on, and when the new one is whole it takes the other's
+  /// place.
+  void renew(const PairFrame& frame, const LocalMinimaRequest& request, LocalMinimaCost& cost,
+             const WorkLimit& limit);
   void clear() {
     front_.clear();
+    next_front_.clear();
     shell_pairs_.clear();
+    overlap_.findNone();
   }
   std::size_t memoryBytes() const {
-    return front_.memoryBytes() + shell_pairs_.memoryBytes() + distant_components_.memoryBytes() +
-           open_.capacity() * sizeof(TreeNodePair);
+    return front_.memoryBytes() + next_front_.memoryBytes() + shell_pairs_.memoryBytes() +
+           distant_components_.memoryBytes() + overlap_.memoryBytes() +
+           next_candidates_.capacity() * sizeof(MinimumCandidate);
   }
 
  private:
+  bool collectOverlap(const PairFrame& frame, const LocalMinimaRequest& request,
+                      std::vector<MinimumCandidate>& candidates, LocalMinimaCost& cost, WorkLimit& limit);
+  bool collectMinima(const PairFrame& frame, const LocalMinimaRequest& request,
+                     std::vector<MinimumCandidate>& candidates, LocalMinimaCost& cost, WorkLimit& limit);
+
   MinimaTracker front_;
+  MinimaTracker next_front_;
+  std::vector<MinimumCandidate> next_candidates_;
   ConvexShellPairs shell_pairs_;
   DistantComponentBuffers distant_components_;
-  std::vector<TreeNodePair> open_;
+  OverlapParts overlap_;
 };
 
 }  // namespace concave_distance::detail

@@ -11,56 +11,123 @@ constexpr std::size_t kLargestBasin = std::size_t{1} << 18U;
 }  // namespace
 
 bool DecisionBasins::takeCrossed(std::uint32_t index, double level) {
-  counts_.measured += memory_.basin(index).boundary.takeCrossed(memory_.boundaries(), frame_, level);
-  if (!memory_.boundaries().crossed.empty()) return true;
+  BoundaryPool& pool = memory_.boundaries();
+  counts_.measured += memory_.basin(index).boundary.takeCrossed(pool, frame_, level, limit_);
+  if (!pool.crossed.empty() || pool.has_unmeasured) return true;
   ++counts_.by_boundary;
   return false;
 }
 
 void DecisionBasins::restoreBoundary(std::uint32_t index) {
   for (const BoundaryElement& element : memory_.boundaries().crossed) {
+    const TrianglePair beyond = element.pairBeyond();
+    if (memory_.isIn(beyond.a, beyond.b, index)) continue;
     if (!memory_.basin(index).boundary.add(memory_.boundaries(), frame_, element, 0.0, limit_)) {
-      return memory_.drop(index);
+      memory_.drop(index);
+      return;
     }
   }
 }
 
 std::uint64_t DecisionBasins::keep(std::uint64_t id, std::uint32_t first, const TrianglePair& around) {
-  const std::size_t size = search_.facet_pairs().size();
-  if (size > kLargestBasin) return 0;
-  const std::uint32_t index = memory_.takeBasin(id, limit_);
-  if (index == DecisionCache::kNone) return 0;
+  const std::uint32_t index = begin(id, around);
+  if (index == DecisionCache::kNone || !extend(index)) return 0;
   DecisionCache::KeptBasin& basin = memory_.basin(index);
-  basin.confirmed = true;
+  basin.is_whole = basin.confirmed = true;
   basin.first = first;
+  return basin.id;
+}
+
+void DecisionBasins::keepSome(const TrianglePair& around, Progress& progress) {
+  if (progress.basin == DecisionCache::kNone) progress.basin = begin(0, around);
+  progress.is_over = progress.basin == DecisionCache::kNone;
+  while (!progress.is_over && !isAdded(progress)) {
+    if (limit_.isOverNow()) return;
+    progress.is_over = !addNext(progress);
+  }
+  if (progress.basin == DecisionCache::kNone) return;
+  if (progress.is_over) {
+    memory_.drop(progress.basin);
+    return;
+  }
+  progress.is_over = true;
+  DecisionCache::KeptBasin& basin = memory_.basin(progress.basin);
+  basin.is_whole = basin.confirmed = true;
+}
+
+std::uint32_t DecisionBasins::begin(std::uint64_t id, const TrianglePair& around) {
+  const std::size_t size = search_.facet_pairs().size();
+  if (size > kLargestBasin) return DecisionCache::kNone;
+  const std::uint32_t index = memory_.takeBasin(id, limit_);
+  if (index == DecisionCache::kNone) return index;
+  DecisionCache::KeptBasin& basin = memory_.basin(index);
   basin.facet_pairs_at_begin = size;
   const TrianglePairDistance closest =
       triangleDistance(frame_.cornersOfA(around.a), frame_.cornersOfB(around.b));
   basin.boundary.begin(memory_.boundaries(), closest.point_a, frame_.pointInB(closest.point_b));
-  return extend(index) ? basin.id : 0;
+  return index;
 }
 
 bool DecisionBasins::extend(std::uint32_t index) {
-  if (add(index)) return true;
-  memory_.drop(index);
-  return false;
+  Progress progress;
+  progress.basin = index;
+  while (!isAdded(progress)) {
+    if (addNext(progress)) continue;
+    memory_.drop(index);
+    return false;
+  }
+  return true;
 }
 
-bool DecisionBasins::add(std::uint32_t index) {
-  DecisionCache::KeptBasin& basin = memory_.basin(index);
-  for (const BasinSearch::FacetPair& facet_pair : search_.facet_pairs()) {
-    const std::uint32_t number = memory_.facetPairOf(facet_pair.a, facet_pair.b, limit_);
-    if (number == DecisionCache::kNone || !memory_.join(number, index, limit_)) return false;
-  }
+void DecisionBasins::extendPartly(std::uint32_t index) {
+  search_.findReached(is_reached_);
+  const std::vector<BasinSearch::FacetPair>& visited = search_.facet_pairs();
   bool has_room = true;
-  search_.forEachBoundaryStep(
-      [&](TriangleIndex a, TriangleIndex b) { return memory_.isIn(a, b, index); },
-      [&](const BasinSearch::BoundaryStep& step) {
-        const TriangleIndex beyond = step.element.side == Side::A ? step.beyond_a : step.beyond_b;
-        has_room = has_room && basin.boundary.add(memory_.boundaries(), frame_, {step.element, beyond},
-                                                  std::sqrt(step.squared_level), limit_);
-      });
-  return has_room;
+  for (std::size_t i = 0; i < visited.size() && has_room; ++i) {
+    if (is_reached_[i] != 0) continue;
+    const std::uint32_t number = memory_.facetPairOf(visited[i].a, visited[i].b, limit_);
+    has_room = number != DecisionCache::kNone && memory_.join(number, index, limit_) &&
+               partFromReached({visited[i].a, visited[i].b}, index);
+  }
+  Progress progress;
+  progress.basin = index;
+  progress.facet_pairs = visited.size();
+  while (has_room && !isAdded(progress)) has_room = addNext(progress);
+  if (!has_room) {
+    memory_.drop(index);
+    return;
+  }
+  restoreBoundary(index);
+}
+
+bool DecisionBasins::partFromReached(const TrianglePair& pair, std::uint32_t index) {
+  BasinBoundary& boundary = memory_.basin(index).boundary;
+  const auto part = [&](TriangleIndex a, TriangleIndex b, const BoundaryElement& element) {
+    const std::uint32_t beyond = search_.indexOf(a, b);
+    return beyond == BasinSearch::kNone || is_reached_[beyond] == 0 ||
+           boundary.add(memory_.boundaries(), frame_, element, 0.0, limit_);
+  };
+  for (const AdjacentTriangle& next : frame_.adjacency_a->row(pair.a.value)) {
+    if (!part(next.triangle, pair.b, {{Side::A, next.from, next.to, pair.b}, next.triangle})) return false;
+  }
+  for (const AdjacentTriangle& next : frame_.adjacency_b->row(pair.b.value)) {
+    if (!part(pair.a, next.triangle, {{Side::B, next.from, next.to, pair.a}, next.triangle})) return false;
+  }
+  return true;
+}
+
+bool DecisionBasins::addNext(Progress& progress) {
+  const std::uint32_t index = progress.basin;
+  if (progress.facet_pairs < search_.facet_pairs().size()) {
+    const BasinSearch::FacetPair& facet_pair = search_.facet_pairs()[progress.facet_pairs++];
+    const std::uint32_t number = memory_.facetPairOf(facet_pair.a, facet_pair.b, limit_);
+    return number != DecisionCache::kNone && memory_.join(number, index, limit_);
+  }
+  const BasinSearch::BoundaryStep& step = search_.boundarySteps()[progress.boundary_steps++];
+  if (!search_.isBeyond(step) || memory_.isIn(step.beyond_a, step.beyond_b, index)) return true;
+  const TriangleIndex beyond = step.element.side == Side::A ? step.beyond_a : step.beyond_b;
+  return memory_.basin(index).boundary.add(memory_.boundaries(), frame_, {step.element, beyond},
+                                           std::sqrt(step.squared_level), limit_);
 }
 
 }  // namespace concave_distance::detail

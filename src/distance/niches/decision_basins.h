@@ -22,7 +22,13 @@ class DecisionBasins {
   template <typename Meets>
   bool isEnclosed(std::uint32_t index, const BasinSearch::Levels& levels, const Meets& meets) {
     if (!takeCrossed(index, levels.highest)) return true;
-    if (searchBeyond(index, levels, meets) != BasinSearch::End::Enclosed) {
+    const BasinSearch::End end =
+        memory_.boundaries().has_unmeasured ? BasinSearch::End::Long : searchBeyond(index, levels, meets);
+    if (end == BasinSearch::End::Cut && limit_.hasRefusedTime() && !limit_.hasRefusedMemory()) {
+      extendPartly(index);
+      return false;
+    }
+    if (end != BasinSearch::End::Enclosed) {
       restoreBoundary(index);
       return false;
     }
@@ -37,11 +43,15 @@ class DecisionBasins {
   /// @return its id, or 0 when it is not kept
   std::uint64_t keep(std::uint64_t id, std::uint32_t first, const TrianglePair& around);
 
+  using Progress = BasinProgress;
+  /// The same as keep() until time ends it. The basin is asked for only when it is whole.
+  void keepSome(const TrianglePair& around, Progress& progress);
+
  private:
   /// A basin that has grown to more than twice its size and this many facet pairs is searched anew.
   static constexpr std::size_t kSmallBasin = 64;
 
-  /// Takes what is nearer than `level` (m) out of the boundary. Returns false when nothing is.
+  /// Takes what is nearer than `level` (m) out of the boundary. Returns false when nothing is, for certain.
   bool takeCrossed(std::uint32_t index, double level);
 
   /// Searches the facet pairs beyond the elements that have left the basin's boundary.
@@ -63,18 +73,31 @@ class DecisionBasins {
     return end;
   }
 
-  /// Puts the elements that have left the boundary back into it.
+  /// Puts the elements that have left the boundary, but for those inside by now, back into it.
   void restoreBoundary(std::uint32_t index);
 
+  /// Returns an empty basin, or kNone.
+  std::uint32_t begin(std::uint64_t id, const TrianglePair& around);
   /// Extends a kept basin by what the last search has visited; without memory it drops it and returns false.
   bool extend(std::uint32_t index);
-  bool add(std::uint32_t index);
+  /// The same for a search that time has cut, so that the next one goes on from there: what surrounds the
+  /// facet pairs that it has looked at becomes boundary, as far as it is not known at a distance of 0.
+  void extendPartly(std::uint32_t index);
+  /// Parts a facet pair of the basin from those that the search has only reached. False without memory.
+  bool partFromReached(const TrianglePair& pair, std::uint32_t index);
+  /// Adds the next facet pair, or where all are in it the next step of the boundary. False without memory.
+  bool addNext(Progress& progress);
+  bool isAdded(const Progress& progress) const {
+    return progress.facet_pairs == search_.facet_pairs().size() &&
+           progress.boundary_steps == search_.boundarySteps().size();
+  }
 
   DecisionCache& memory_;
   BasinSearch& search_;
   const PairFrame& frame_;
   NicheDecider::Counts& counts_;
   WorkLimit& limit_;
+  std::vector<char> is_reached_;
 };
 
 }  // namespace concave_distance::detail

@@ -9,6 +9,8 @@ namespace {
 constexpr std::uint64_t kKeptCycles = 64;
 /// Facet pairs that are kept without being looked through.
 constexpr std::size_t kSmallTable = 256;
+/// Facet pairs that leave a dropped basin at once; of larger ones, as many leave in each cycle.
+constexpr std::size_t kMostUnlinked = 8192;
 
 }  // namespace
 
@@ -30,7 +32,8 @@ void DecisionCache::beginCycle(bool is_tracked) {
     KeptBasin& basin = basins_[i];
     if (basin.confirmed) basin.used = cycle_;
     const bool is_kept = basin.confirmed || (was_cut_ && basin.used + kKeptCycles > cycle_);
-    if (basin.id != 0 && !is_kept) drop(i);
+    if (basin.is_whole && !is_kept) drop(i);
+    if (basin.id == 0 && basin.members != kNone) unlink(i);
   }
   was_cut_ = false;
   compact();
@@ -65,7 +68,7 @@ void DecisionCache::enterCandidate(std::uint32_t number, std::uint32_t candidate
   facet_pair.candidate = candidate;
   for (std::uint32_t m = facet_pair.basins; m != kNone; m = memberships_[m].next) {
     KeptBasin& basin = basins_[memberships_[m].basin];
-    if (basin.first == kNone) basin.first = candidate;
+    if (basin.is_whole && basin.first == kNone) basin.first = candidate;
   }
 }
 
@@ -130,9 +133,20 @@ bool DecisionCache::join(std::uint32_t number, std::uint32_t basin, WorkLimit& l
   return true;
 }
 
-void DecisionCache::drop(std::uint32_t index) {
+bool DecisionCache::drop(std::uint32_t index) {
   KeptBasin& basin = basins_[index];
-  for (std::uint32_t m = basin.members; m != kNone;) {
+  basin.boundary.clear(boundaries_);
+  basin.id = 0;
+  basin.first = kNone;
+  basin.is_whole = basin.confirmed = false;
+  return unlink(index);
+}
+
+/// Takes facet pairs out of a dropped basin. Its place is free when none is left.
+bool DecisionCache::unlink(std::uint32_t index) {
+  KeptBasin& basin = basins_[index];
+  std::uint32_t m = basin.members;
+  for (std::size_t count = 0; m != kNone && count < kMostUnlinked; ++count) {
     Membership& membership = memberships_[m];
     std::uint32_t* at = &facet_pairs_[membership.facet_pair].basins;
     while (*at != m) at = &memberships_[*at].next;
@@ -142,11 +156,11 @@ void DecisionCache::drop(std::uint32_t index) {
     free_membership_ = m;
     m = next;
   }
-  basin.members = kNone;
+  basin.members = m;
+  if (m != kNone) return false;
   basin.facet_pairs = 0;
-  basin.boundary.clear(boundaries_);
-  basin.id = 0;
   free_basins_.push_back(index);
+  return true;
 }
 
 bool DecisionCache::isUsed(std::uint32_t link) const {

@@ -10,6 +10,14 @@
 
 namespace concave_distance::detail {
 
+/// Says what has been put into a basin that is kept step by step.
+struct BasinProgress {
+  std::uint32_t basin = 0xffffffffU;  ///< in the cache, or none
+  std::size_t facet_pairs = 0;
+  std::size_t boundary_steps = 0;
+  bool is_over = false;  ///< nothing is left to do, or there was no memory
+};
+
 /// Keeps from pose to pose what proves decisions: facet pairs (a facet of each body), links of the paths that
 /// lead on from them, and basins, sets of facet pairs with a boundary around each. Belongs to one pair of
 /// bodies.
@@ -42,6 +50,7 @@ class DecisionCache {
     std::uint64_t id = 0;         ///< 0: free; else its place in the list is the lower half
     std::uint32_t first = kNone;  ///< candidate of this cycle
     bool confirmed = false;       ///< in this cycle
+    bool is_whole = false;        ///< all its facet pairs and its whole boundary are in it
     std::uint64_t used = 0;       ///< the last cycle that confirmed it
     BasinBoundary boundary;
     std::uint32_t members = kNone;  ///< first of its memberships
@@ -61,6 +70,11 @@ class DecisionCache {
   FacetPair& facet_pair(std::uint32_t number) { return facet_pairs_[number]; }
   const FacetPair& facet_pair(std::uint32_t number) const { return facet_pairs_[number]; }
 
+  /// Puts a candidate into a facet pair, where that is known, and its basins.
+  void enterIfKnown(TriangleIndex a, TriangleIndex b, std::uint32_t candidate) {
+    const std::uint32_t number = table_.find(a, b);
+    if (number != PairTable::kAbsent) enterCandidate(number, candidate);
+  }
   /// Puts a candidate into a facet pair and its basins, unless an earlier one is there.
   void enterCandidate(std::uint32_t number, std::uint32_t candidate);
   /// Returns the candidate of this cycle in a facet pair, or kNone.
@@ -93,12 +107,14 @@ class DecisionCache {
   std::uint32_t takeBasin(std::uint64_t id, WorkLimit& limit);
   /// Adds a facet pair to a basin. Returns false without memory.
   bool join(std::uint32_t number, std::uint32_t basin, WorkLimit& limit);
-  void drop(std::uint32_t basin);
+  /// Lets a basin go, a large one over some cycles. Returns whether its place is free at once.
+  bool drop(std::uint32_t basin);
   BoundaryPool& boundaries() { return boundaries_; }
 
   std::size_t memoryBytes() const;
 
  private:
+  bool unlink(std::uint32_t basin);
   struct Membership {
     std::uint32_t basin;
     std::uint32_t facet_pair;

@@ -10,59 +10,10 @@ namespace {
 
 /// A search that has visited this many facet pairs may be replaced by cheaper tests.
 constexpr std::size_t kLongSearch = 512;
-/// To keep a basin of more facet pairs takes milliseconds that nothing can end. Where there is a deadline, it
-/// is done in the cycle after the search.
+/// Where there is a deadline, a basin of more facet pairs is kept step by step in the next cycles.
 constexpr std::size_t kLargeBasin = 8192;
 
 }  // namespace
-
-void NicheDecider::Stage::enter(const std::vector<MinimumCandidate>& candidates) {
-  were_long_ = decider_.searches_are_long_;
-  decider_.searches_are_long_ = false;
-  for (const MinimumCandidate& candidate : candidates) {
-    const auto index = static_cast<std::uint32_t>(decider_.judged_.size());
-    decider_.judged_.emplace_back();
-    decider_.judged_.back().candidate = candidate;
-    const std::uint32_t number = indexOf(candidate);
-    if (number == kNone) continue;
-    memory_.enterCandidate(number, index);
-  }
-  candidate_count_ = decider_.candidate_count_ = static_cast<std::uint32_t>(decider_.judged_.size());
-}
-
-std::uint32_t NicheDecider::Stage::placeAround(const TrianglePair& pair) {
-  const std::uint32_t in_facet_pair = candidateAround(pair.a, pair.b);
-  if (in_facet_pair != kNone) return in_facet_pair;
-  return enterPlace(
-      refineWitness(frame_.a, frame_.b, frame_.a_from_b, pair.a, pair.b, decider_.refinement_).witness);
-}
-
-std::uint32_t NicheDecider::Stage::enterPlace(const WitnessPair& minimum) {
-  if (!frame_.areOnSurface(minimum.triangle_a, minimum.triangle_b)) return kNone;
-  const MinimumCandidate candidate = frame_.candidateOf(minimum);
-  const std::uint32_t in_facet_pair = candidateAround(minimum.triangle_a, minimum.triangle_b);
-  // Given candidates may lie a little above the minimum of their facet pair.
-  if (in_facet_pair != kNone &&
-      decider_.judged_[in_facet_pair].candidate.distance <= candidate.distance + tolerance_) {
-    return in_facet_pair;
-  }
-  const auto begin = decider_.judged_.begin();
-  const auto found = begin + candidate_count_;
-  const auto is_there = [&](const Judged& other) { return isSamePlace(other.candidate, candidate); };
-  const auto is_nearer = [](const Judged& judged, double distance) {
-    return judged.candidate.distance < distance;
-  };
-  const auto nearest = std::lower_bound(begin, found, candidate.distance - tolerance_, is_nearer);
-  const auto farthest = std::lower_bound(nearest, found, candidate.distance + 2.0 * tolerance_, is_nearer);
-  auto known = std::find_if(nearest, farthest, is_there);
-  if (known == farthest) known = std::find_if(found, decider_.judged_.end(), is_there);
-  if (known != decider_.judged_.end()) return static_cast<std::uint32_t>(known - begin);
-  if (!request_.through_material && isThroughMaterial(minimum)) return kNone;
-  decider_.judged_.emplace_back();
-  decider_.judged_.back().candidate = candidate;
-  decider_.judged_.back().was_found = true;
-  return static_cast<std::uint32_t>(decider_.judged_.size() - 1);
-}
 
 void NicheDecider::Stage::decideFar() {
   for (std::uint32_t i = 0; i < decider_.judged_.size(); ++i) {
@@ -81,7 +32,6 @@ void NicheDecider::Stage::decideByMemory() {
 }
 
 void NicheDecider::Stage::decideBySearches() {
-  resumeSearch();
   if (limit_.isTimed()) searchInTurn();
   std::size_t niches = 0;
   for (std::uint32_t& i = decider_.next_; i < decider_.end_ && niches < request_.most_niches; ++i) {
@@ -122,22 +72,6 @@ void NicheDecider::Stage::decideByMemory(std::uint32_t i) {
   }
 }
 
-bool NicheDecider::Stage::isSamePlace(const MinimumCandidate& l, const MinimumCandidate& r) const {
-  return l.is_measured && r.is_measured &&
-         (l.point_a - r.point_a).squaredNorm() + (l.point_b - r.point_b).squaredNorm() <=
-             tolerance_ * tolerance_;
-}
-
-std::uint32_t NicheDecider::Stage::deepestLike(std::uint32_t i) {
-  const MinimumCandidate& candidate = decider_.judged_[i].candidate;
-  const TriangleIndex piece_a{frame_.pieces_a->piece_of_triangle[candidate.a.value]};
-  const TriangleIndex piece_b{frame_.pieces_b->piece_of_triangle[candidate.b.value]};
-  const std::uint32_t known = decider_.deepest_.find(piece_a, piece_b);
-  if (known != PairTable::kAbsent) return known;
-  decider_.deepest_.insert(piece_a, piece_b, i);
-  return i;
-}
-
 void NicheDecider::Stage::searchInTurn() {
   const std::uint32_t count = decider_.end_ - decider_.next_;
   if (count == 0) return;
@@ -158,7 +92,7 @@ void NicheDecider::Stage::search(std::uint32_t i) {
     memory_.basin(broken).confirmed = limit_.isOver();
     if (limit_.isOver()) return set(i, Decision::Undecided);
     id = memory_.basin(broken).id;
-    memory_.drop(broken);
+    if (!memory_.drop(broken)) id = 0;
   }
   deepest_ = deepestLike(i);
   // Searches of this pose may have left a path.
@@ -166,21 +100,20 @@ void NicheDecider::Stage::search(std::uint32_t i) {
   ++decider_.counts_.searches;
   BasinSearch& search = decider_.search_;
   const TrianglePair start = frame_.facetPairOf(candidate.a, candidate.b);
-  search.begin(start.a, start.b, levelsOf(candidate.distance));
-  const auto meets = [&](TriangleIndex a, TriangleIndex b) { return isOfEarlier(a, b, i); };
-  const auto is_inside = [](TriangleIndex, TriangleIndex) { return false; };
-  BasinSearch::End end = search.proceed(frame_, kLongSearch, meets, is_inside, limit_);
+  const bool can_suspend = request_.is_tracked && i < candidate_count_ && candidate.distance > tolerance_ &&
+                           !decider_.suspended_.isThere();
+  if (!beginSearch(i, start)) return set(i, Decision::Undecided);
+  BasinSearch::End end = proceed(search, kLongSearch, i);
   if (end == BasinSearch::End::Long) {
     if (settlesLong(i)) return;
-    end = search.proceed(frame_, std::numeric_limits<std::size_t>::max(), meets, is_inside, limit_);
+    end = proceed(search, std::numeric_limits<std::size_t>::max(), i);
   }
   decider_.counts_.visited_pairs += static_cast<std::uint32_t>(search.lookedAt());
   switch (end) {
     case BasinSearch::End::Enclosed:
       set(i, Decision::Niche);
-      if (i < candidate_count_ && request_.is_tracked && !decider_.suspended_ && limit_.shareOf(1.0) > 0.0 &&
-          search.lookedAt() > kLargeBasin) {
-        suspend(start);
+      if (can_suspend && limit_.shareOf(1.0) > 0.0 && search.lookedAt() > kLargeBasin) {
+        decider_.suspended_.suspend(search, start, frame_);
         break;
       }
       if (request_.is_tracked && candidate.distance > tolerance_) {
@@ -200,72 +133,34 @@ void NicheDecider::Stage::search(std::uint32_t i) {
     }
     case BasinSearch::End::Met:
       set(i, Decision::Ripple,
-          memory_.candidateIn(search.facet_pairs()[search.last()].a, search.facet_pairs()[search.last()].b));
+          candidateIn(search.facet_pairs()[search.last()].a, search.facet_pairs()[search.last()].b));
       if (request_.is_tracked) paths_.keepPath(search, number);
       break;
     default:
       set(i, Decision::Undecided);
-      if (i < candidate_count_ && request_.is_tracked) suspend(start);
+      if (can_suspend && search.lookedAt() >= kLongSearch && !limit_.hasRefusedMemory()) {
+        decider_.suspended_.suspend(search, start, frame_);
+      }
       break;
   }
 }
 
-void NicheDecider::Stage::suspend(const TrianglePair& start) {
-  if (decider_.search_.lookedAt() < kLongSearch || limit_.hasRefusedMemory()) return;
-  std::swap(decider_.search_, decider_.suspended_search_);
-  decider_.suspended_.emplace(Suspended{start, frame_});
+bool NicheDecider::Stage::beginSearch(std::uint32_t i, const TrianglePair& start) {
+  const MinimumCandidate& candidate = decider_.judged_[i].candidate;
+  decider_.search_.begin(start.a, start.b, levelsOf(candidate.distance));
+  if (candidate.part == MinimumCandidate::kNoPart) return true;
+  for (std::uint32_t pair = 0; pair < request_.overlap->pairs().size(); ++pair) {
+    const MeetingPair& met = request_.overlap->pairs()[pair];
+    if (request_.overlap->partOf(pair) != candidate.part) continue;
+    if (!decider_.search_.enterBeyond(met.a, met.b, 0.0, limit_)) return false;
+  }
+  return true;
 }
 
-void NicheDecider::Stage::resumeSearch() {
-  if (!decider_.suspended_) return;
-  const TrianglePair start = decider_.suspended_->start;
-  const std::uint32_t i = memory_.candidateIn(start.a, start.b);
-  // It may come again where this pose's candidates are not all known.
-  if (i == kNone || i < decider_.next_ || i >= decider_.end_) return;
-  if (decider_.judged_[i].decision != Decision::Open) {
-    decider_.suspended_.reset();
-    return;
-  }
-  const PairFrame earlier = decider_.suspended_->frame;
-  BasinSearch& search = decider_.suspended_search_;
-  const std::size_t before = search.lookedAt();
+BasinSearch::End NicheDecider::Stage::proceed(BasinSearch& search, std::size_t most, std::uint32_t i) const {
   const auto meets = [&](TriangleIndex a, TriangleIndex b) { return isOfEarlier(a, b, i); };
   const auto is_inside = [](TriangleIndex, TriangleIndex) { return false; };
-  const BasinSearch::End end =
-      search.proceed(earlier, std::numeric_limits<std::size_t>::max(), meets, is_inside, limit_);
-  decider_.counts_.visited_pairs += static_cast<std::uint32_t>(search.lookedAt() - before);
-  const bool is_kept_later = end == BasinSearch::End::Enclosed && limit_.shareOf(1.0) > 0.0 &&
-                             search.lookedAt() > std::max(before, kLargeBasin);
-  if (end == BasinSearch::End::Cut || is_kept_later) {
-    set(i, Decision::Undecided);
-    if (limit_.hasRefusedMemory()) decider_.suspended_.reset();
-    return;
-  }
-  decider_.suspended_.reset();
-  std::swap(decider_.search_, search);
-  if (end == BasinSearch::End::Enclosed) {
-    keepBasinOf(earlier, i);
-  } else {
-    const BasinSearch::FacetPair& last = decider_.search_.facet_pairs()[decider_.search_.last()];
-    const std::uint32_t number = memory_.facetPairOf(start.a, start.b, limit_);
-    if (number == kNone) return;
-    paths_.keepPath(decider_.search_, number);
-    if (end == BasinSearch::End::Below) paths_.keepLow({last.a, last.b});
-  }
-  decideByMemory(i);
-}
-
-void NicheDecider::Stage::keepBasinOf(const PairFrame& earlier, std::uint32_t i) {
-  const MinimumCandidate& candidate = decider_.judged_[i].candidate;
-  DecisionBasins basins(memory_, decider_.search_, earlier, decider_.counts_, limit_);
-  if (!(candidate.distance > tolerance_)) return;
-  const std::uint32_t known = memory_.basinWith(basins.keep(0, i, {candidate.a, candidate.b}));
-  if (known == kNone) return;
-  // The search has met no earlier candidate where they were then; now one may be inside.
-  for (const BasinSearch::FacetPair& facet_pair : decider_.search_.facet_pairs()) {
-    memory_.basin(known).first =
-        std::min(memory_.basin(known).first, memory_.candidateIn(facet_pair.a, facet_pair.b));
-  }
+  return search.proceed(frame_, most, meets, is_inside, limit_);
 }
 
 double NicheDecider::Stage::passOf(std::uint32_t i, double highest) const {
@@ -276,10 +171,7 @@ double NicheDecider::Stage::passOf(std::uint32_t i, double highest) const {
   search.begin(start.a, start.b,
                {candidate.distance - tolerance_, candidate.distance + tolerance_, highest + tolerance_},
                BasinSearch::Purpose::MeasurePass);
-  const auto meets = [&](TriangleIndex a, TriangleIndex b) { return isOfEarlier(a, b, i); };
-  const auto is_inside = [](TriangleIndex, TriangleIndex) { return false; };
-  const BasinSearch::End end =
-      search.proceed(frame_, std::numeric_limits<std::size_t>::max(), meets, is_inside, limit_);
+  const BasinSearch::End end = proceed(search, std::numeric_limits<std::size_t>::max(), i);
   decider_.counts_.visited_pairs += static_cast<std::uint32_t>(search.lookedAt());
   if (end == BasinSearch::End::Cut) return std::numeric_limits<double>::quiet_NaN();
   if (end == BasinSearch::End::Enclosed) return std::numeric_limits<double>::infinity();
@@ -348,7 +240,7 @@ bool NicheDecider::Stage::isNearest(std::uint32_t i) {
 bool NicheDecider::Stage::hasPathDown(std::uint32_t i) {
   std::uint32_t into = kNone;
   const auto has_arrived = [&](TriangleIndex a, TriangleIndex b) {
-    into = memory_.candidateIn(a, b);
+    into = candidateIn(a, b);
     return into != kNone && into != i && isEarlier(into, i);
   };
   const MinimumCandidate& from = decider_.judged_[i].candidate;

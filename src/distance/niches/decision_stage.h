@@ -16,9 +16,10 @@ class NicheDecider::Stage {
         limit_(limit),
         paths_(memory_, frame, decider.counts_, limit),
         basins_(memory_, decider.search_, frame, decider.counts_, limit),
-        tolerance_(2.0 * frame.touchingDistance()) {}
+        tolerance_(meetingTolerance(frame)) {}
 
-  /// Enters the candidates into their facet pairs and the deepest of each kept basin into the basin.
+  /// Enters the candidates into their facet pairs and the deepest of each kept basin into the basin. Decides
+  /// those of parts of the overlap.
   void enter(const std::vector<MinimumCandidate>& candidates);
 
   /// Goes on with what enter() of an earlier stage at this pose has left.
@@ -77,10 +78,23 @@ class NicheDecider::Stage {
     return memory_.facetPairOf(facet_pair.a, facet_pair.b, limit_);
   }
 
+  /// Enters the candidates of the overlap's parts into all facet pairs of each.
+  void enterParts();
+  /// Returns the part of the overlap of which a candidate is, though it does not stand for it; or kNone.
+  std::uint32_t partAround(const MinimumCandidate& candidate) const;
+
+  /// Returns the candidate in a facet pair, that of its part where the bodies meet there; or kNone.
+  std::uint32_t candidateIn(TriangleIndex a, TriangleIndex b) const {
+    if (request_.overlap != nullptr) {
+      const std::uint32_t part = request_.overlap->partIn(a, b);
+      if (part != OverlapParts::kNone) return decider_.part_candidates_[part];
+    }
+    return memory_.candidateIn(a, b);
+  }
   /// Returns the candidate in the facet pair of a triangle pair, or kNone.
   std::uint32_t candidateAround(TriangleIndex a, TriangleIndex b) const {
     const TrianglePair facet_pair = frame_.facetPairOf(a, b);
-    return memory_.candidateIn(facet_pair.a, facet_pair.b);
+    return candidateIn(facet_pair.a, facet_pair.b);
   }
 
   void set(std::uint32_t i, Decision decision, std::uint32_t into = kNone) {
@@ -95,10 +109,22 @@ class NicheDecider::Stage {
   }
 
   /// True for one minimum that two shells of a body have, because they lie on each other.
-  bool isSamePlace(const MinimumCandidate& l, const MinimumCandidate& r) const;
+  bool isSamePlace(const MinimumCandidate& l, const MinimumCandidate& r) const {
+    return l.is_measured && r.is_measured &&
+           (l.point_a - r.point_a).squaredNorm() + (l.point_b - r.point_b).squaredNorm() <=
+               tolerance_ * tolerance_;
+  }
 
   /// Returns the deepest candidate of the components that i lies on.
-  std::uint32_t deepestLike(std::uint32_t i);
+  std::uint32_t deepestLike(std::uint32_t i) {
+    const MinimumCandidate& candidate = decider_.judged_[i].candidate;
+    const TriangleIndex piece_a{frame_.pieces_a->piece_of_triangle[candidate.a.value]};
+    const TriangleIndex piece_b{frame_.pieces_b->piece_of_triangle[candidate.b.value]};
+    const std::uint32_t known = decider_.deepest_.find(piece_a, piece_b);
+    if (known != PairTable::kAbsent) return known;
+    decider_.deepest_.insert(piece_a, piece_b, i);
+    return i;
+  }
 
   /// Follows kept links; true when they lead below i or to an earlier candidate and stay below i's level.
   bool followsDown(std::uint32_t i, std::uint32_t number);
@@ -109,20 +135,17 @@ class NicheDecider::Stage {
 
   /// True when a facet pair holds a minimum that i would belong to.
   bool isOfEarlier(TriangleIndex a, TriangleIndex b, std::uint32_t i) const {
-    const std::uint32_t other = memory_.candidateIn(a, b);
+    const std::uint32_t other = candidateIn(a, b);
     return other != kNone && other != i && isEarlier(other, i);
   }
 
   /// Decides a candidate by a search of its basin and keeps what proves the decision.
   void search(std::uint32_t i);
+  /// Begins a search at all facet pairs where a candidate is. Returns false without memory.
+  bool beginSearch(std::uint32_t i, const TrianglePair& start);
 
-  /// Keeps a long search that time has ended.
-  void suspend(const TrianglePair& start);
-  /// Goes on with the search that was suspended, if there is one for an open candidate, and when it has ended
-  /// keeps what it found and decides by that.
-  void resumeSearch();
-  /// Keeps the basin that a search of an earlier pose has found enclosed.
-  void keepBasinOf(const PairFrame& earlier, std::uint32_t i);
+  /// Goes on with a search for candidate i at most so far, ending where it meets a place of an earlier one.
+  BasinSearch::End proceed(BasinSearch& search, std::size_t most, std::uint32_t i) const;
 
   /// Descends from the place below a ripple to the minimum under it.
   void descend(std::uint32_t i);

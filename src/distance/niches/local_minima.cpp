@@ -14,6 +14,8 @@ namespace {
 
 constexpr std::size_t kNoOwner = LocalMinima::kNoOwner;
 constexpr std::size_t kUndecided = LocalMinima::kUndecided;
+/// Of the time, for a search that was suspended, where the other niches go on beside it.
+constexpr double kShareOfSuspended = 0.3;
 
 }  // namespace
 
@@ -27,6 +29,9 @@ struct LocalMinimaParts {
   /// Decides which candidates are niches and describes these.
   /// @return false when one is left undecided
   bool decide(const PairFrame& frame, const LocalMinimaRequest& request, WorkLimit& limit);
+  /// Returns the niche, as NicheDecider::locate() does, that one of the asked pairs belongs to.
+  std::uint32_t ownerOf(const PairFrame& frame, const LocalMinimaRequest& request, std::size_t asked,
+                        const NicheDecider::Request& wanted, WorkLimit& limit);
   /// Describes what has been judged a niche and is not described yet.
   void describeNiches(const PairFrame& frame, const LocalMinimaRequest& request, WorkLimit& limit);
   void list(const LocalMinimaRequest& request, LocalMinima& result);
@@ -56,8 +61,10 @@ struct LocalMinimaParts {
   std::vector<std::size_t> proposed;  ///< for each proposal: the same
 };
 
-NicheDecider::Request deciderRequest(const PairFrame& frame, const LocalMinimaRequest& request) {
+NicheDecider::Request deciderRequest(const PairFrame& frame, const LocalMinimaRequest& request,
+                                     const OverlapParts& overlap) {
   NicheDecider::Request wanted;
+  if (!overlap.parts().empty()) wanted.overlap = &overlap;
   wanted.cutoff = request.cutoff + frame.rounding;
   wanted.rule = request.rule;
   wanted.through_material = request.through_material;
@@ -76,7 +83,7 @@ NicheDecider::Request deciderRequest(const PairFrame& frame, const LocalMinimaRe
 }
 
 bool LocalMinimaParts::decide(const PairFrame& frame, const LocalMinimaRequest& request, WorkLimit& limit) {
-  const NicheDecider::Request wanted = deciderRequest(frame, request);
+  const NicheDecider::Request wanted = deciderRequest(frame, request, collector.overlap());
   is_looked_at.clear();
   decider.begin(frame, candidates, wanted, limit);
   do {
@@ -92,11 +99,7 @@ bool LocalMinimaParts::decide(const PairFrame& frame, const LocalMinimaRequest& 
     return judged == NicheDecider::kNone ? kNoOwner : std::size_t{judged};
   };
   for (std::size_t i = 0; i < request.asked_pairs.size(); ++i) {
-    const auto& [a, b] = request.asked_pairs[i];
-    std::uint32_t owner = NicheDecider::kNone;
-    if (i < request.asked_basins.size()) owner = decider.nicheWith(request.asked_basins[i]);
-    if (owner == NicheDecider::kNone) owner = decider.locate(frame, {a, b}, wanted, limit);
-    owners.push_back(place(owner));
+    owners.push_back(place(ownerOf(frame, request, i, wanted, limit)));
   }
   for (const MinimumCandidate& proposal : request.proposals) {
     const bool is_candidate = isCandidate(frame, request, proposal);
@@ -113,6 +116,26 @@ bool LocalMinimaParts::decide(const PairFrame& frame, const LocalMinimaRequest& 
   return std::none_of(decider.judged().begin(), decider.judged().end(), [](const auto& judged) {
     return judged.decision == NicheDecider::Decision::Undecided;
   });
+}
+
+std::uint32_t LocalMinimaParts::ownerOf(const PairFrame& frame, const LocalMinimaRequest& request,
+                                        std::size_t asked, const NicheDecider::Request& wanted,
+                                        WorkLimit& limit) {
+  const auto& [a, b] = request.asked_pairs[asked];
+  const std::uint64_t basin = asked < request.asked_basins.size() ? request.asked_basins[asked] : 0;
+  const OverlapParts& overlap = collector.overlap();
+  const bool was_part = OverlapParts::isPartId(basin);
+  const std::uint32_t heir = was_part ? overlap.heirOf(basin) : OverlapParts::kNone;
+  if (heir != OverlapParts::kNone) return decider.nicheOfPart(heir);
+  std::uint32_t owner = was_part ? NicheDecider::kNone : decider.nicheWith(basin);
+  if (owner == NicheDecider::kNone) owner = decider.locate(frame, {a, b}, wanted, limit);
+  if (!was_part || owner != NicheDecider::kNone) return owner;
+  // Where one of its curves has gone, another may still be near.
+  overlap.forSomePairsOf(basin, [&](const TrianglePair& pair) {
+    owner = decider.locate(frame, pair, wanted, limit);
+    return owner != NicheDecider::kNone;
+  });
+  return owner;
 }
 
 void LocalMinimaParts::describeNiches(const PairFrame& frame, const LocalMinimaRequest& request,
@@ -136,7 +159,7 @@ void LocalMinimaParts::describeNiches(const PairFrame& frame, const LocalMinimaR
 
 void LocalMinimaParts::measure(const PairFrame& frame, const LocalMinimaRequest& request, LocalMinima& result,
                                WorkLimit& limit) {
-  const NicheDecider::Request wanted = deciderRequest(frame, request);
+  const NicheDecider::Request wanted = deciderRequest(frame, request, collector.overlap());
   for (std::size_t k = 0; k < result.niches.size(); ++k) {
     const auto niche = static_cast<std::uint32_t>(described[k].judged);
     const double distance = decider.judged()[niche].candidate.distance;
@@ -221,19 +244,24 @@ void findLocalMinima(const detail::PairFrame& frame, const LocalMinimaRequest& r
   if (request.known) {
     parts.listKnown(frame, request, result, limit);
     result.cut = false;
-    result.looked_at_all = true;
     result.finished = !limit.isOver();
     return;
   }
   parts.described.clear();
   parts.owners.clear();
   parts.proposed.clear();
+  limit.allowShare(request.finishes_searches ? request.time_shares.all : detail::kShareOfSuspended);
+  const bool has_finished = parts.decider.goOn(limit);
+  if (!has_finished && request.finishes_searches) {
+    result.owners.assign(request.asked_pairs.size(), LocalMinima::kUndecided);
+    result.cut = result.finished = false;
+    return;
+  }
   const auto start = WorkLimit::Clock::now();
   limit.allowShare(request.time_shares.search);
   const bool all = parts.collector.collect(frame, request, parts.candidates, result.cost, limit);
   result.cost.sweep_seconds = std::chrono::duration<double>(WorkLimit::Clock::now() - start).count();
   result.cost.minima = parts.candidates.size();
-  result.looked_at_all = all;
   limit.allowShare(request.time_shares.all);
   // Proposals count while not everything has been looked at.
   if (!all) detail::appendCandidates(frame, request, request.proposals, parts.candidates);
@@ -245,12 +273,14 @@ void findLocalMinima(const detail::PairFrame& frame, const LocalMinimaRequest& r
   result.cost.searched_pairs = parts.decider.counts().visited_pairs;
   if ((!all || !decided) && !limit.hasRefusedMemory()) parts.decider.endCut();
   result.finished = all && decided && !limit.isOver() && limit.hasRefusedMemory() == refused_before;
+  if (result.finished) parts.collector.renew(frame, request, result.cost, limit);
 }
 
 void attributeProposals(const detail::PairFrame& frame, const LocalMinimaRequest& request,
                         LocalMinimaMemory& memory, LocalMinima& result) {
   detail::LocalMinimaParts& parts = memory.parts();
-  const detail::NicheDecider::Request wanted = detail::deciderRequest(frame, request);
+  const detail::NicheDecider::Request wanted =
+      detail::deciderRequest(frame, request, parts.collector.overlap());
   WorkLimit none;
   WorkLimit& limit = request.limit != nullptr ? *request.limit : none;
   for (std::size_t i = request.proposals.size(); i-- > 0;) {

@@ -57,6 +57,8 @@ struct LocalMinimaRequest {
     double all = 1.0;
   };
   TimeShares time_shares;
+  /// A long search that time has ended is finished before anything else; until it is, nothing is decided.
+  bool finishes_searches = false;
   /// When it is reached, the niches decided so far are the result (LocalMinima::finished); nullptr: none.
   WorkLimit* limit = nullptr;
 };
@@ -100,7 +102,6 @@ struct LocalMinima {
   std::vector<LocalMinimum> niches;  ///< ascending by distance
   bool cut = false;                  ///< there are more than largest_count
   bool finished = true;              ///< false: the limit was reached, niches may be missing
-  bool looked_at_all = true;  ///< false: it ended the search for minima, which the next call goes on with
   static constexpr std::size_t kUndecided = kNoOwner - 1;
   /// For each of LocalMinimaRequest::asked_pairs the niche that it belongs to; kUndecided when the limit was
   /// reached before that was seen, kNoOwner when that is none of
@@ -113,8 +114,8 @@ struct LocalMinima {
 /// least prominence: none is missed, none invented, up to the error of the triangle kernel in coordinates of
 /// the bodies' size (minima whose pass is higher by less than that are one). How and why: doc/proofs.md.
 /// Bodies about 2 / (least prominence) times their size apart have one niche for each pair of
-/// shells, found without looking through their features. Where the bodies meet, every connected set of
-/// meeting points is one niche of distance 0. Outward niches of open shells include those marked Unknown.
+/// shells, found without looking through their features. Where the bodies meet, every connected part
+/// of their overlap is one niche of distance 0. Outward niches of open shells include those marked Unknown.
 /// Uses the bodies' normalCones(). Never throws.
 LocalMinima findLocalMinima(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b,
                             const LocalMinimaRequest& request);

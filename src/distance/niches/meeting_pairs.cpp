@@ -1,9 +1,11 @@
 #include "meeting_pairs.h"
 
+#include <algorithm>
 #include <cmath>
 
+#include "facet_line.h"
+#include "facet_pair_levels.h"
 #include "mesh/trees/triangle_tree.h"
-#include "shell_material.h"
 
 namespace concave_distance::detail {
 namespace {
@@ -16,24 +18,37 @@ Eigen::AlignedBox3d movedBox(const Eigen::AlignedBox3d& box, const Eigen::Isomet
   return {centre - half, centre + half};
 }
 
+/// The edges of one facet that are within the tolerance of another one.
+std::uint8_t metEdges(const FacetPoints& of, const FacetPlane& by, double tolerance, bool& runs_through) {
+  std::uint8_t met = 0;
+  for (std::size_t k = 0; k < of.edgeCount(); ++k) {
+    const std::size_t next = k + 1 == of.edgeCount() ? 0 : k + 1;
+    LinePart part;
+    if (!by.isMet(of.corners[k], of.corners[next], tolerance, part)) continue;
+    met = static_cast<std::uint8_t>(met | (1U << k));
+    runs_through = runs_through || part.is_through;
+  }
+  return met;
+}
+
 }  // namespace
 
-void collectMeetingPairs(const PairFrame& frame, std::vector<TreeNodePair>& open,
-                         std::vector<MinimumCandidate>& candidates, LocalMinimaCost& cost, WorkLimit& limit) {
+bool MeetingPairs::collect(const PairFrame& frame, LocalMinimaCost& cost, WorkLimit& limit) {
+  clear();
   const TriangleTree& tree_a = frame.a.tree();
   const TriangleTree& tree_b = frame.b.tree();
-  const double slack = frame.touchingDistance();
+  const double tolerance = meetingTolerance(frame);
   // Boxes are compared in A's own frame, far from whose origin coordinates round coarser.
   const double origin = frame.a.surface().boundingBox().center().cwiseAbs().maxCoeff() +
                         frame.b.surface().boundingBox().center().cwiseAbs().maxCoeff();
-  const double margin = slack + 1e-14 * (origin + frame.size);
-  open.clear();
-  if (!limit.makeRoom(open)) return;
-  open.emplace_back(0U, 0U);
-  while (!open.empty()) {
-    if (limit.isOverNow() || !limit.makeRoom(open, 2)) return;
-    const auto [i, j] = open.back();
-    open.pop_back();
+  const double margin = tolerance + 1e-14 * (origin + frame.size);
+  open_.clear();
+  if (!limit.makeRoom(open_)) return false;
+  open_.emplace_back(0U, 0U);
+  while (!open_.empty()) {
+    if (limit.isOverNow() || !limit.makeRoom(open_, 2)) return false;
+    const auto [i, j] = open_.back();
+    open_.pop_back();
     const TriangleTree::Node& a = tree_a.nodes()[i];
     const TriangleTree::Node& b = tree_b.nodes()[j];
     ++cost.node_pairs;
@@ -43,25 +58,41 @@ void collectMeetingPairs(const PairFrame& frame, std::vector<TreeNodePair>& open
         for (std::uint32_t l = b.first; l < b.first + b.count; ++l) {
           const TriangleIndex ta = tree_a.order()[k];
           const TriangleIndex tb = tree_b.order()[l];
-          if (frame.a.shellContacts().isHidden(ta) || frame.b.shellContacts().isHidden(tb)) continue;
+          if (!frame.areOnSurface(ta, tb)) continue;
           ++cost.candidates;
-          const TrianglePairDistance closest = triangleDistance(frame.cornersOfA(ta), frame.cornersOfB(tb));
-          if (closest.squared_distance > slack * slack) continue;
-          const Eigen::Vector3d point = closest.point_a + frame.centre_a;
-          if (isInsideMaterial(frame, {0.0, point, point, ta, tb})) continue;
-          if (!limit.makeRoom(candidates)) return;
-          const double distance = std::sqrt(closest.squared_distance);
-          candidates.push_back(candidateOn(ta, tb, distance > 4.0 * frame.rounding ? distance : 0.0));
+          const TrianglePair facets = frame.facetPairOf(ta, tb);
+          if (!look(frame, facets.a, facets.b, tolerance, limit)) return false;
         }
       }
     } else if (b.count > 0 || (a.count == 0 && a.box.sizes().sum() >= b.box.sizes().sum())) {
-      open.emplace_back(i + 1, j);
-      open.emplace_back(a.first, j);
+      open_.emplace_back(i + 1, j);
+      open_.emplace_back(a.first, j);
     } else {
-      open.emplace_back(i, j + 1);
-      open.emplace_back(i, b.first);
+      open_.emplace_back(i, j + 1);
+      open_.emplace_back(i, b.first);
     }
   }
+  return true;
+}
+
+/// Adds a facet pair if it meets and is not there yet. Returns false without memory.
+bool MeetingPairs::look(const PairFrame& frame, TriangleIndex a, TriangleIndex b, double tolerance,
+                        WorkLimit& limit) {
+  if (table_.find(a, b) != kNone) return true;
+  const FacetPoints points_a = frame.facetOfA(a);
+  const FacetPoints points_b = frame.facetOfB(b);
+  const FacetPlane plane_a(points_a);
+  const FacetPlane plane_b(points_b);
+  if (FacetPlane::areClearlyApart(plane_a, plane_b, tolerance)) return true;
+  bool runs_through = false;
+  const std::uint8_t of_a = metEdges(points_a, plane_b, tolerance, runs_through);
+  const std::uint8_t of_b = metEdges(points_b, plane_a, tolerance, runs_through);
+  if (of_a == 0 && of_b == 0) return true;
+  const double distance = runs_through ? 0.0 : std::sqrt(facetPairLevels(points_a, points_b).least());
+  if (!limit.makeRoom(pairs_) || !table_.makeRoom(limit)) return false;
+  table_.insert(a, b, static_cast<std::uint32_t>(pairs_.size()));
+  pairs_.push_back({a, b, distance, {of_a, of_b}});
+  return true;
 }
 
 }  // namespace concave_distance::detail

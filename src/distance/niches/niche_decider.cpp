@@ -9,7 +9,7 @@ namespace concave_distance::detail {
 
 void NicheDecider::clear() {
   memory_.clear();
-  suspended_.reset();
+  suspended_.clear();
   turn_ = 0;
   searches_are_long_ = false;
 }
@@ -18,6 +18,7 @@ void NicheDecider::begin(const PairFrame& frame, std::vector<MinimumCandidate>& 
                          const Request& request, WorkLimit& limit) {
   memory_.beginCycle(request.is_tracked);
   counts_ = {};
+  counts_.visited_pairs = suspended_.takeVisited();
   judged_.clear();
   deepest_.clear();
   std::sort(candidates.begin(), candidates.end(), [](const MinimumCandidate& l, const MinimumCandidate& r) {
@@ -83,6 +84,11 @@ std::uint32_t NicheDecider::nicheWith(std::uint64_t basin) const {
   return index != kNone && memory_.basin(index).confirmed ? nicheOf(memory_.basin(index).first) : kNone;
 }
 
+std::uint32_t NicheDecider::nicheOfPart(std::uint32_t part) const {
+  const std::uint32_t end = endOf(part_candidates_[part]);
+  return judged_[end].decision == Decision::Undecided ? kUndecided : nicheOf(end);
+}
+
 std::uint32_t NicheDecider::endOf(std::uint32_t index) const {
   while (index != kNone && judged_[index].decision == Decision::Ripple) index = judged_[index].into;
   return index;
@@ -94,8 +100,9 @@ std::uint32_t NicheDecider::nicheOf(std::uint32_t of) const {
 }
 
 std::size_t NicheDecider::memoryBytes() const {
-  return memory_.memoryBytes() + judged_.capacity() * sizeof(Judged) + search_.memoryBytes() +
-         suspended_search_.memoryBytes() + path_.memoryBytes();
+  return memory_.memoryBytes() + judged_.capacity() * sizeof(Judged) +
+         part_candidates_.capacity() * sizeof(std::uint32_t) + search_.memoryBytes() +
+         suspended_.memoryBytes() + path_.memoryBytes();
 }
 
 }  // namespace concave_distance::detail

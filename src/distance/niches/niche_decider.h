@@ -3,14 +3,16 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
-#include <optional>
 #include <vector>
 
 #include "basin_search.h"
 #include "bounded_path.h"
 #include "decision_cache.h"
+#include "decision_counts.h"
 #include "niche_properties.h"
 #include "niche_rule.h"
+#include "overlap_parts.h"
+#include "suspended_search.h"
 
 namespace concave_distance::detail {
 
@@ -36,15 +38,7 @@ class NicheDecider {
     TrianglePair below;          ///< and if not: a facet pair deeper than it
     std::uint64_t basin = 0;     ///< of a niche: the same while its boundary is; 0: none
   };
-  struct Counts {
-    std::uint32_t by_path = 0;      ///< ripples by known paths
-    std::uint32_t aimed = 0;        ///< links of paths that have got other points
-    std::uint32_t by_boundary = 0;  ///< niches by known boundaries
-    std::uint32_t mended = 0;       ///< niches by boundaries with more facet pairs inside
-    std::uint32_t searches = 0;
-    std::uint32_t visited_pairs = 0;
-    std::uint32_t measured = 0;  ///< elements of boundaries, anew
-  };
+  using Counts = DecisionCounts;
   struct Request {
     double cutoff = std::numeric_limits<double>::infinity();  ///< metres; no place beyond it is judged
     NicheRule rule;
@@ -53,12 +47,18 @@ class NicheDecider {
     bool through_material = false;
     bool is_tracked = true;         ///< what proves a decision is kept for the next pose
     double certain_distance = 0.0;  ///< metres, as LocalMinimaRequest::certain_distance
+    /// Where the bodies meet at this pose, with a candidate for each part; nullptr: nowhere.
+    const OverlapParts* overlap = nullptr;
     /// Returns whether a candidate that is no known ripple is wanted; empty: all are. The occluder is kept
     /// with the candidate's triangle pair.
     std::function<bool(const MinimumCandidate&, Occluder&)> is_wanted;
   };
 
   void clear();
+
+  /// Goes on with a long search that time has ended, before begin(). Returns false when the limit was reached
+  /// again. A pose may be left out: what proves decisions is kept.
+  bool goOn(WorkLimit& limit) { return suspended_.goOn(memory_, limit); }
 
   /// At a new pose: puts the candidates in ascending order; results stand in the same order, and after them
   /// places that only searches have found.
@@ -69,7 +69,7 @@ class NicheDecider {
   /// Judges those that judgeByMemory() has left open.
   void judgeBySearches(const PairFrame& frame, const Request& request, WorkLimit& limit);
   /// Says that time has ended this pose's judging: what proves decisions is kept for the next one even where
-  /// it was not used. A long search goes on there by itself.
+  /// it was not used.
   void endCut() { memory_.endCut(); }
   bool hasJudgedAll() const { return next_ >= candidate_count_; }
   /// Judges all of them, until there are Request::most_niches.
@@ -83,6 +83,8 @@ class NicheDecider {
                        WorkLimit& limit);
   /// Returns the niche with this basin, or kNone when it is no longer kept.
   std::uint32_t nicheWith(std::uint64_t basin) const;
+  /// Returns the niche that a part of the overlap is, as locate() does.
+  std::uint32_t nicheOfPart(std::uint32_t part) const;
 
   /// At the pose of the last begin(): the lowest level (metres) from which a path leads from a niche to a
   /// place as near; infinite when that is above `highest`, NaN when the limit was reached.
@@ -95,28 +97,22 @@ class NicheDecider {
 
  private:
   class Stage;
-  /// A search that time has ended: it goes on at the pose where it began, and what it finds is looked at anew
-  /// at the present one.
-  struct Suspended {
-    TrianglePair start;  ///< facet pair
-    PairFrame frame;
-  };
   /// Follows the ripples downhill from `index` and returns the candidate at which the path ends.
   std::uint32_t endOf(std::uint32_t index) const;
   std::uint32_t nicheOf(std::uint32_t index) const;
 
   DecisionCache memory_;
   BasinSearch search_;
-  std::optional<Suspended> suspended_;
-  BasinSearch suspended_search_;
+  SuspendedSearch suspended_;
   BoundedPathBuffers path_;
   RefinementWorkspace refinement_;
   std::vector<Judged> judged_;
-  PairTable deepest_{4};               ///< first candidate of each pair of pieces
-  std::uint32_t candidate_count_ = 0;  ///< of judged_, the rest was found
-  std::uint32_t next_ = 0;             ///< of the candidates, the first that is not judged
-  std::uint32_t end_ = 0;              ///< of the candidates looked up in the memory
-  std::uint32_t turn_ = 0;             ///< of the candidates, whose is the next search
+  std::vector<std::uint32_t> part_candidates_;  ///< by part of the overlap
+  PairTable deepest_{4};                        ///< first candidate of each pair of pieces
+  std::uint32_t candidate_count_ = 0;           ///< of judged_, the rest was found
+  std::uint32_t next_ = 0;                      ///< of the candidates, the first that is not judged
+  std::uint32_t end_ = 0;                       ///< of the candidates looked up in the memory
+  std::uint32_t turn_ = 0;                      ///< of the candidates, whose is the next search
   bool searches_are_long_ = false;
   bool is_far_ = false;
   Counts counts_;

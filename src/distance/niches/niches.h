@@ -15,13 +15,14 @@
 // - niche_decider decides each candidate by the cheapest proof that holds: a path down that stays low
 //   (bounded_path), two whole components that are far apart (distant_components), the boundary of a basin
 //   that is still high enough (basin_boundary), else a search of the basin (basin_search). Its stages are
-//   decision_stage, decision_paths and decision_basins; facet_pair_levels and facet_pair_neighbours give the
-//   graph that they go through.
+//   decision_entry, decision_stage, decision_paths and decision_basins; facet_pair_levels and
+//   facet_pair_neighbours give the graph that they go through.
 // - decision_cache keeps what proved a decision for the next pose.
 // - The same search of the basin, up to a higher level, measures the prominences of the listed niches where a
 //   request asks for them.
 // - niche_describer tells kind, extent (niche_extent, planar_set), outward or through material
 //   (shell_material), hidden or visible (niche_properties).
-// - meeting_pairs finds the niches of distance 0, where the surfaces meet.
+// - meeting_pairs finds where the surfaces meet; overlap_parts joins, by overlap_sets and overlap_lines, what
+//   one connected part of the overlap holds: a niche at distance 0. facet_line tells where lines meet facets.
 //
 // It keeps evidence and never a result: where the evidence no longer proves a decision, it decides anew.

@@ -11,8 +11,6 @@
 #include <tf2_ros/static_transform_broadcaster.h>
 #include <urdf_parser/urdf_parser.h>
 
-#include <algorithm>
-#include <cmath>
 #include <vector>
 
 #include "concave_distance/base/error.h"
@@ -20,41 +18,11 @@
 #include "loading/description_search.h"
 #include "loading/frame_name.h"
 #include "loading/urdf_values.h"
+#include "swaying_joints.h"
 
 namespace {
 
 using namespace concave_distance;
-
-constexpr double kTurn = 0.5;          // rad, largest amplitude of a turning joint
-constexpr double kShift = 0.1;         // m, of a sliding one
-constexpr double kShareOfRange = 0.2;  // at most, of both
-constexpr double kSlowest = 0.07;      // Hz
-constexpr double kFrequencyStep = 0.011;
-constexpr std::size_t kFrequencies = 7;
-
-struct MovedJoint {
-  double centre = 0.0;
-  double amplitude = 0.0;
-};
-
-bool isMoved(const urdf::Joint& joint) {
-  const bool has_one_axis = joint.type == urdf::Joint::REVOLUTE || joint.type == urdf::Joint::CONTINUOUS ||
-                            joint.type == urdf::Joint::PRISMATIC;
-  return has_one_axis && !joint.mimic;
-}
-
-MovedJoint motionOf(const urdf::Joint& joint, bool sway) {
-  MovedJoint moved;
-  moved.amplitude = sway ? (joint.type == urdf::Joint::PRISMATIC ? kShift : kTurn) : 0.0;
-  if (joint.type == urdf::Joint::CONTINUOUS || !joint.limits) return moved;
-  const double lower = joint.limits->lower;
-  const double upper = joint.limits->upper;
-  if (!(lower < upper)) return {std::clamp(0.0, std::min(lower, upper), std::max(lower, upper)), 0.0};
-  if (lower > 0.0 || upper < 0.0) moved.centre = 0.5 * (lower + upper);
-  moved.amplitude = std::min(moved.amplitude, kShareOfRange * (upper - lower));
-  moved.centre = std::clamp(moved.centre, lower + moved.amplitude, upper - moved.amplitude);
-  return moved;
-}
 
 std::string waitForDescription(const ros::NodeHandle& node) {
   const std::string name = node.param<std::string>("robot_description", "robot_description");
@@ -109,20 +77,16 @@ void run() {
   publishWhatStands(broadcaster, *model, node.param<std::string>("root_frame", "world"));
 
   sensor_msgs::JointState message;
-  std::vector<MovedJoint> joints;
-  for (const auto& [name, joint] : model->joints_) {
-    if (!isMoved(*joint)) continue;
-    message.name.push_back(name);
-    joints.push_back(motionOf(*joint, motion == "sway"));
+  std::vector<demo::SwayingJoint> joints = demo::swayingJoints(*model);
+  for (demo::SwayingJoint& joint : joints) {
+    message.name.push_back(joint.name);
+    if (motion == "zero") joint.amplitude = 0.0;
   }
   message.position.resize(joints.size());
   ros::NodeHandle public_node;
   ros::Publisher publisher = public_node.advertise<sensor_msgs::JointState>("joint_states", 1);
   demo::playAtRate(rate, [&](double time, const ros::Time& now) {
-    for (std::size_t i = 0; i < joints.size(); ++i) {
-      const double frequency = kSlowest + kFrequencyStep * static_cast<double>(i % kFrequencies);
-      message.position[i] = joints[i].centre + joints[i].amplitude * std::sin(2.0 * M_PI * frequency * time);
-    }
+    for (std::size_t i = 0; i < joints.size(); ++i) message.position[i] = joints[i].at(time);
     message.header.stamp = now;
     publisher.publish(message);
   });

@@ -60,7 +60,8 @@ std::vector<TextRow> legendRows(const Scene& scene, const MarkerSelection& selec
   addRow({{"line: " + lengthText(style.near) + kColumn, distanceColor(style.near, style)},
           {lengthText(middle), distanceColor(middle, style)},
           {kColumn + lengthText(style.far) + " or more", distanceColor(style.far, style)}});
-  if (isInSettings(scene, [](const PairSettings& settings) { return settings.warning_distance.has_value(); })) {
+  if (isInSettings(scene,
+                   [](const PairSettings& settings) { return settings.warning_distance.has_value(); })) {
     addRow({{"red: closer than the warning distance", warningColor()}});
   }
   if (!isInSettings(scene, [](const PairSettings& settings) { return settings.effects.any(); })) return rows;

@@ -109,8 +109,8 @@ void SceneMarkers::drawContacts(const Scene& scene, const PublishedPairs& pairs,
   std::size_t k = 0;
   for (const PairContactState& contact : contacts) {
     while (k + 1 < pairs.size() && pairs[k]->heading.pair != contact.pair) ++k;
-    DrawnPressures pressures = pressureMarkers(scene, *pairs[k]->tracked->origin, *pairs[k], contact, layout_.style,
-                                               pressures_.end(), triangles_left);
+    DrawnPressures pressures = pressureMarkers(scene, *pairs[k]->tracked->origin, *pairs[k], contact,
+                                               layout_.style, pressures_.end(), triangles_left);
     append(contactMarkers(contact, pressures.has_marker, layout_.style), markers);
     append(std::move(pressures.markers), markers);
   }

@@ -17,9 +17,9 @@ struct PublishedPair {
   PublishedPair(std::shared_ptr<const TrackedPair> tracked_pair, const std::string& reference_frame);
 
   std::shared_ptr<const TrackedPair> tracked;  ///< not null in DistanceCycle::pairs()
-  PairHeading heading;  ///< of the last answer
-  PairStatus status;    ///< why there is no solution; OK when there is
-  bool was_watched = false;  ///< before the last cycle
+  PairHeading heading;                         ///< of the last answer
+  PairStatus status;                           ///< why there is no solution; OK when there is
+  bool was_watched = false;                    ///< before the last cycle
 
   const PairDemand& demand() const { return tracked->demand; }
 };

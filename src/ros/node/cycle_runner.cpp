@@ -144,8 +144,9 @@ CycleRecord CycleRunner::runCycle(ros::Time now, WorkLimit::Clock::time_point st
     return publishers_.demandOf(*served_, place, pair);
   };
   record.report = cycle_.run(demand_of, now, endOfCycle(start, cycleBudget(cycle_budget_, rate_)));
-  const PublishReport published = publishers_.publish(
-      *served_, cycle_.pairs(), cycle_.others(), std::max(kMarkerPeriods / marker_rate, kShortestMarkerLife), now);
+  const PublishReport published =
+      publishers_.publish(*served_, cycle_.pairs(), cycle_.others(),
+                          std::max(kMarkerPeriods / marker_rate, kShortestMarkerLife), now);
   record.latency = published.latency;
   record.messages = published.messages;
   record.markers = published.markers;

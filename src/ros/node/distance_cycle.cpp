@@ -15,7 +15,8 @@ std::string describeAge(const TrackedPair& tracked, const std::string& reference
                         double stale_after) {
   TextStream message;
   message << "the newest transform between '" << tracked.body_a->frame << "', '" << tracked.body_b->frame
-          << "' and '" << reference_frame << "' is " << age << " s old; ~stale_after is " << stale_after << " s";
+          << "' and '" << reference_frame << "' is " << age << " s old; ~stale_after is " << stale_after
+          << " s";
   return message.str();
 }
 
@@ -79,11 +80,9 @@ PublishedPairs DistanceCycle::takeRetired() {
 
 CycleCounts DistanceCycle::run(const std::vector<PairDemand>& demand, ros::Time now,
                                WorkLimit::Clock::time_point end) {
-  return run(
-      [&](std::size_t place, const TrackedPair&) {
-        return place < demand.size() ? demand[place] : PairDemand();
-      },
-      now, end);
+  return run([&](std::size_t place,
+                 const TrackedPair&) { return place < demand.size() ? demand[place] : PairDemand(); },
+             now, end);
 }
 
 CycleCounts DistanceCycle::run(const SceneTracker::DemandOf& demand_of, ros::Time now,
@@ -150,9 +149,11 @@ void DistanceCycle::describe(PublishedPair& pair, ros::Time now) const {
     return;
   }
   pair.heading.stamp = stamp.isZero() ? now : stamp;
-  if (!tracked.input.located && place_a.status == TransformStatus::Ok && place_b.status == TransformStatus::Ok) {
-    pair.status = toStatus(TransformStatus::Missing, "the transforms of '" + tracked.body_a->frame + "' and '" +
-                                                         tracked.body_b->frame + "' have no time in common yet");
+  if (!tracked.input.located && place_a.status == TransformStatus::Ok &&
+      place_b.status == TransformStatus::Ok) {
+    pair.status =
+        toStatus(TransformStatus::Missing, "the transforms of '" + tracked.body_a->frame + "' and '" +
+                                               tracked.body_b->frame + "' have no time in common yet");
     return;
   }
   if (!tracked.input.located) {

@@ -248,8 +248,7 @@ void DistanceServer::reportLateness() {
     return;
   }
   if (news->is_warning) {
-    ROS_WARN_STREAM(news->text << ". " << pairs
-                               << " pairs are in the scene; what helps: " << kRemedies);
+    ROS_WARN_STREAM(news->text << ". " << pairs << " pairs are in the scene; what helps: " << kRemedies);
   } else {
     ROS_INFO_STREAM(news->text);
   }

@@ -236,7 +236,8 @@ ParameterTable<L> ofSizes() {
           .to(1e6),
       count<L>(
           "largest_pair_count", [](auto& l) -> auto& { return l.largest_pair_count; },
-          "named pairs of the scene, and pairs by rule that are near at one time: what is more is cut, with a "
+          "named pairs of the scene, and pairs by rule that are near at one time: what is more is cut, with "
+          "a "
           "count (`pairs_cut`)")
           .from(1.0)
           .to(1e7),

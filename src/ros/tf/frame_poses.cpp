@@ -102,7 +102,8 @@ void FramePoses::findPlaces(const tf2::BufferCore& buffer, ros::Time now, double
       is_whole_ = false;
       place.status = TransformStatus::Missing;
       place.message = lookUpFrame(buffer, reference_, frames_[i], ros::Time(0)).message;
-      if (place.message.empty()) place.message = "no transform from '" + frames_[i] + "' to '" + reference_ + "'";
+      if (place.message.empty())
+        place.message = "no transform from '" + frames_[i] + "' to '" + reference_ + "'";
     } else if (!place.stamp.isZero() && secondsBetween(place.stamp, now) > stale_after) {
       place.status = TransformStatus::Stale;
     }

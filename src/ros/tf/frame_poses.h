@@ -86,9 +86,9 @@ class FramePoses {
   std::unordered_map<std::string, std::size_t> node_of_;
   std::size_t reference_node_ = kNone;
   std::vector<std::size_t> node_of_frame_;
-  bool is_whole_ = false;  ///< every frame is connected with the reference frame
-  std::vector<FramePlace> places_;       ///< of frames_
-  std::vector<ros::Time> stamps_;        ///< ascending, at most kMostTimes
+  bool is_whole_ = false;           ///< every frame is connected with the reference frame
+  std::vector<FramePlace> places_;  ///< of frames_
+  std::vector<ros::Time> stamps_;   ///< ascending, at most kMostTimes
   std::vector<ros::Time> all_stamps_;
   BodyPoses poses_;
   ros::Time epoch_;

@@ -107,7 +107,7 @@ class TopicPublishers {
   bool markers_wanted_ = false;
   bool contact_markers_wanted_ = false;
   bool alerts_wanted_ = false;
-  bool own_wanted_ = false;  ///< a pair's own topics
+  bool own_wanted_ = false;       ///< a pair's own topics
   bool are_markers_due_ = false;  ///< in this cycle, when somebody listens
   bool markers_due_ = false;
   std::unique_ptr<SceneMarkers> drawing_;

@@ -34,8 +34,12 @@ std::vector<MinimumCandidate> candidatesAt(const PairFrame& scene) {
   WorkLimit none;
   std::vector<MinimumCandidate> candidates;
   LocalMinimaCost cost;
-  std::vector<TreeNodePair> open;
-  collectMeetingPairs(scene, open, candidates, cost, none);
+  MeetingPairs met;
+  EXPECT_TRUE(met.collect(scene, cost, none));
+  for (const MeetingPair& pair : met.pairs()) {
+    candidates.push_back(
+        candidateOn(pair.a, pair.b, pair.distance > 4.0 * scene.rounding ? pair.distance : 0.0));
+  }
   front.collect(scene, NormalSides::Outside, kInfinity, candidates, none);
   return candidates;
 }
@@ -261,9 +265,10 @@ TEST(NicheDecider, FinishALongSearchInLaterCyclesThoughEachIsCut) {
   for (; cycle < 2000 && !is_decided; ++cycle) {
     const PairFrame frame = PairFrame::withFacets(*hills, *bowl, pose_at(cycle));
     candidates = candidatesAt(frame);
+    WorkLimit limit(WorkLimit::Clock::now(), allowed, std::numeric_limits<std::size_t>::max(), nullptr);
+    if (!cut.goOn(limit)) continue;  // what is known is kept, though this pose is left out
     cut.begin(frame, candidates, {}, none);
     cut.judgeByMemory(frame, {}, none);
-    WorkLimit limit(WorkLimit::Clock::now(), allowed, std::numeric_limits<std::size_t>::max(), nullptr);
     cut.judgeBySearches(frame, {}, limit);
     is_decided = std::none_of(cut.judged().begin(), cut.judged().end(), [](const auto& judged) {
       return judged.decision == Decision::Undecided || judged.decision == Decision::Open;
@@ -273,6 +278,62 @@ TEST(NicheDecider, FinishALongSearchInLaterCyclesThoughEachIsCut) {
   }
   EXPECT_TRUE(is_decided);
   EXPECT_GT(cycle, 4) << "the limit has to strike for this test to say anything";
+}
+
+// The basins of an earlier pose reach farther now, and no cycle has the time to see how far.
+TEST(NicheDecider, MendABasinInLaterCyclesThoughEachIsCut) {
+  const Body hills = makeBody(makeSheet(72, 0.5, true, [](double x, double y) {
+    return 0.05 * std::sin(9.42 * x) - 0.3 * y * y - (x < 0.0 ? 0.002 : 0.0);
+  }));
+  const Body bowl =
+      makeBody(makeSheet(72, 0.6, false, [](double x, double y) { return 0.1 * (x * x + y * y); }));
+  const auto frame_at = [&](double height) {
+    Isometry3d pose(Eigen::AngleAxisd(0.01, Vector3d(1, 2, 2) / 3.0));
+    pose.pretranslate(Vector3d(0.01, 0.003, height));
+    return PairFrame::withFacets(*hills, *bowl, pose);
+  };
+  const PairFrame before = frame_at(1.05);
+  const PairFrame after = frame_at(1.15);
+  WorkLimit none;
+  const auto begun = [&] {
+    NicheDecider decider;
+    std::vector<MinimumCandidate> candidates = candidatesAt(before);
+    decider.judge(before, candidates, {}, none);
+    return decider;
+  };
+  NicheDecider whole = begun();
+  std::vector<MinimumCandidate> candidates = candidatesAt(after);
+  const auto start = WorkLimit::Clock::now();
+  whole.judge(after, candidates, {}, none);
+  double allowed = std::chrono::duration<double>(WorkLimit::Clock::now() - start).count();
+  ASSERT_GT(whole.counts().mended, 0U);
+  ASSERT_GT(whole.counts().visited_pairs, 1000U);
+
+  int cycle = 0;
+  std::uint32_t visited = 0;
+  // A busy machine may have made the time longer than it is.
+  for (int attempt = 0; attempt < 10 && cycle < 3; ++attempt) {
+    allowed /= 4.0;
+    NicheDecider cut = begun();
+    bool is_decided = false;
+    visited = 0;
+    for (cycle = 0; cycle < 2000 && !is_decided; ++cycle) {
+      candidates = candidatesAt(after);
+      WorkLimit limit(WorkLimit::Clock::now(), allowed, std::numeric_limits<std::size_t>::max(), nullptr);
+      cut.begin(after, candidates, {}, none);
+      cut.judgeByMemory(after, {}, limit);
+      cut.judgeBySearches(after, {}, limit);
+      visited += cut.counts().visited_pairs;
+      is_decided = std::none_of(cut.judged().begin(), cut.judged().end(), [](const auto& judged) {
+        return judged.decision == Decision::Undecided || judged.decision == Decision::Open;
+      });
+      if (limit.hasRefusedTime()) cut.endCut();
+    }
+    ASSERT_TRUE(is_decided);
+    expectSame(nichesOf(cut), nichesBySearches(after, candidates, 1e-2));
+  }
+  EXPECT_GT(cycle, 2) << "the limit has to strike for this test to say anything";
+  EXPECT_LT(visited, 2 * whole.counts().visited_pairs) << "each cycle goes on where the last one has ended";
 }
 
 // Niches that a short list leaves open are asked for one by one: what is found wrong on the way stays wrong.
@@ -407,6 +468,7 @@ TEST(NicheDecider, AreThoseOfMeasuredPassesWhateverTheOrderOfTheCandidates) {
 TEST(BasinBoundary, LosesExactlyWhatComesNearerThanTheLevel) {
   RandomEngine engine(23);
   std::size_t lost = 0;
+  std::size_t unmeasured = 0;
   std::size_t kept = 0;
   for (std::uint32_t run = 0; run < 200; ++run) {
     const Body a = makeBody(test::concaveShape(run));
@@ -435,7 +497,13 @@ TEST(BasinBoundary, LosesExactlyWhatComesNearerThanTheLevel) {
     }
     for (int k = 1; k < 30; ++k) {
       const PairFrame scene = PairFrame::withFacets(*a, *b, motion.at(step * k));
-      boundary.takeCrossed(pool, scene, level);
+      WorkLimit over(WorkLimit::Clock::now(), 0.0, std::numeric_limits<std::size_t>::max(), nullptr);
+      boundary.takeCrossed(pool, scene, level, over);
+      ASSERT_TRUE(pool.crossed.empty()) << "nothing is measured after the limit";
+      ASSERT_EQ(boundary.size(pool), left.size()) << "and nothing gets lost";
+      unmeasured += pool.has_unmeasured ? 1 : 0;
+      boundary.takeCrossed(pool, scene, level, none);
+      ASSERT_FALSE(pool.has_unmeasured);
       const std::size_t crossed = pool.crossed.size();
       const auto nearer = [&](const SharedElement& element) {
         return std::sqrt(closestOver(scene, element).squared_distance) < level;
@@ -449,6 +517,7 @@ TEST(BasinBoundary, LosesExactlyWhatComesNearerThanTheLevel) {
     kept += left.size();
   }
   EXPECT_GT(lost, 1000U);
+  EXPECT_GT(unmeasured, 0U);
   EXPECT_GT(kept, 1000U);
 }
 

@@ -90,6 +90,9 @@ class Picture {
     for (std::size_t k = 0; k < scene_.bodies.size(); ++k) {
       if (k == body) {
         bodies.push_back(box(name, unit_));
+        for (const auto& pair : pairs_) {
+          if (pair->heading.body_b == scene_.bodies[k].name) pair->heading.body_b = name;
+        }
       } else {
         bodies.appendShared(scene_.bodies, k);
       }

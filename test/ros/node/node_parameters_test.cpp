@@ -70,7 +70,11 @@ TEST(NodeParameters, ReadTheCertifiedLevelWithItsTolerances) {
   EXPECT_EQ(tracker.time_budget, 0.002);
   EXPECT_TRUE(std::isinf(parse(XmlRpc::XmlRpcValue()).pair.tracker.time_budget));
   EXPECT_NE(refusal("relative_tolerance", 1.5), "");
-  EXPECT_NE(refusal("time_budget", -1.0), "");
+  for (const double seconds : {std::nan(""), -1.0, 0.0, -HUGE_VAL}) {
+    const std::string message = refusal("time_budget", seconds);
+    EXPECT_NE(message.find("time_budget"), std::string::npos) << seconds << message;
+    EXPECT_NE(message.find("greater than 0 (s)"), std::string::npos) << message;
+  }
 }
 
 TEST(NodeParameters, RefuseWithNameValueAndRange) {

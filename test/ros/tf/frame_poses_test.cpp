@@ -85,7 +85,8 @@ TEST(FramePoses, AreThoseOfEachPairAlone) {
     for (std::size_t a = 0; a < frames.size(); ++a) {
       for (std::size_t b = 0; b < frames.size(); ++b) {
         PairAncestors ancestors;
-        const PairTransforms expected = lookUpPair(buffer, {reference, frames[a], frames[b]}, now, 1.0, ancestors);
+        const PairTransforms expected =
+            lookUpPair(buffer, {reference, frames[a], frames[b]}, now, 1.0, ancestors);
         const Common common = commonOf(poses.poses(), a, b);
         ASSERT_EQ(common.is_located, expected.status == TransformStatus::Ok)
             << "seed " << seed << ": " << frames[a] << ", " << frames[b] << ": " << expected.message;

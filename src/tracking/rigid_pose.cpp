@@ -1,6 +1,4 @@
-#include "relative_motion.h"
-
-#include <algorithm>
+#include "rigid_pose.h"
 
 #include "base/constants.h"
 
@@ -18,18 +16,6 @@ std::optional<Eigen::Isometry3d> rigidPose(const Eigen::Isometry3d& pose) {
   rigid.linear() = Eigen::Quaterniond(rotation).normalized().toRotationMatrix();
   rigid.translation() = pose.translation();
   return rigid;
-}
-
-double largestDisplacement(const Eigen::AlignedBox3d& box, const Eigen::Isometry3d& before,
-                           const Eigen::Isometry3d& after) {
-  const Eigen::Matrix3d turn = after.linear() - before.linear();
-  const Eigen::Vector3d shift = after.translation() - before.translation();
-  double largest = 0.0;
-  for (int corner = 0; corner < 8; ++corner) {
-    const Eigen::Vector3d point = box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(corner));
-    largest = std::max(largest, (turn * point + shift).squaredNorm());
-  }
-  return std::sqrt(largest);
 }
 
 }  // namespace concave_distance

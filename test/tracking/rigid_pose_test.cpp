@@ -1,11 +1,10 @@
-#include "tracking/relative_motion.h"
+#include "tracking/rigid_pose.h"
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <limits>
 
-namespace concave_distance::relative_motion_test {
+namespace concave_distance::rigid_pose_test {
 namespace {
 
 TEST(RigidPose, RefusesWhatIsNoRotation) {
@@ -40,19 +39,5 @@ TEST(RigidPose, MendsRounding) {
   EXPECT_LE((mended->linear() * mended->linear().transpose() - Eigen::Matrix3d::Identity()).norm(), 1e-15);
 }
 
-TEST(LargestDisplacement, IsTheTranslationWithoutTurning) {
-  const Eigen::AlignedBox3d box(Eigen::Vector3d(-1.0, -2.0, -3.0), Eigen::Vector3d(1.0, 2.0, 3.0));
-  const Eigen::Isometry3d before = Eigen::Isometry3d::Identity();
-  const Eigen::Isometry3d after(Eigen::Translation3d(0.3, 0.0, 0.4));
-  EXPECT_DOUBLE_EQ(largestDisplacement(box, before, after), 0.5);
-}
-
-TEST(LargestDisplacement, IsTheChordOfTheFarthestCornerWhenTurning) {
-  const Eigen::AlignedBox3d box(Eigen::Vector3d(-1.0, -2.0, -3.0), Eigen::Vector3d(1.0, 2.0, 3.0));
-  const Eigen::Isometry3d before = Eigen::Isometry3d::Identity();
-  const Eigen::Isometry3d after(Eigen::AngleAxisd(0.2, Eigen::Vector3d::UnitZ()));
-  EXPECT_NEAR(largestDisplacement(box, before, after), 2.0 * std::sqrt(5.0) * std::sin(0.1), 1e-14);
-}
-
 }  // namespace
-}  // namespace concave_distance::relative_motion_test
+}  // namespace concave_distance::rigid_pose_test
