@@ -43,7 +43,7 @@ class NearPairs {
     /// For each near pair what it is in the new scene; nullptr: it leaves.
     std::vector<std::shared_ptr<const ScenePair>> pairs;
     std::vector<std::shared_ptr<const ScenePair>> resting;  ///< the same for each pair that rests
-    std::size_t ruled = 0;  ///< enabled pairs by rule
+    std::size_t ruled = 0;                                  ///< enabled pairs by rule
     bool has_rules = false;
   };
   Plan plan(const Scene& scene, bool settings_changed) const;

@@ -18,8 +18,8 @@ void requireRoomForBody(const Scene& scene);
 /// Adds a body and its pairs with its partners: those that are named by themselves are listed, the rule of
 /// the body gives the others.
 /// @throws Error when a body or a group has the name or it is not a ROS name, when a partner is unknown or
-/// the body itself, or
-///         when the scene would exceed its limits
+/// the
+///         body itself, or when the scene would exceed its limits
 AddedPairs addBody(Scene& scene, SceneBody body, const PairPartners& partners, const PairSettings& settings);
 /// The same without the names of its pairs.
 AddedPairs appendBody(Scene& scene, SceneBody body, const PairPartners& partners,

@@ -5,6 +5,7 @@
 
 #include "base/constants.h"
 #include "concave_distance/search/prepare_search.h"
+#include "mesh/surface/mesh_topology.h"
 #include "scene/body_pool.h"
 #include "search/grid/body_grid.h"
 #include "search/grid/mesh_metric.h"

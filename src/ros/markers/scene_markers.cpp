@@ -122,13 +122,13 @@ ShownMarkers SceneMarkers::drawWarnings(const Scene& scene, const std::vector<Dr
   const bool renews = std::abs(secondsBetween(tints_sent_, now)) >= lifetime;
   if (renews) tints_sent_ = now;
   ShownMarkers shown;
-  const std::map<std::int32_t, std::string> before = std::exchange(tinted_, {});
+  const std::map<std::int32_t, std::shared_ptr<const SceneBody>> before = std::exchange(tinted_, {});
   for (const std::size_t body : warnedBodies(scene, drawn, kLargestTint * layout_.region.diagonal().norm())) {
     const auto id = static_cast<std::int32_t>(body);
-    const std::string& name = tinted_[id] = scene.bodies[body].name;
+    const std::shared_ptr<const SceneBody>& tinted = tinted_[id] = scene.bodies.share(body);
     shown.emplace("warning", id);
     const auto found = before.find(id);
-    if (!renews && found != before.end() && found->second == name) continue;
+    if (!renews && found != before.end() && found->second == tinted) continue;
     markers.push_back(warningMarker(scene, body, kTintOffset * layout_.style.scale));
     markers.back().lifetime = ros::Duration(kTintLives * lifetime);
   }

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -51,7 +52,8 @@ class SceneMarkers {
   LabelNumbers numbers_;
   PressureScale pressures_;
   ShownMarkers shown_;
-  std::map<std::int32_t, std::string> tinted_;  ///< names of the red bodies by marker id
+  /// The red bodies by marker id, as they were drawn: an edit may have moved one.
+  std::map<std::int32_t, std::shared_ptr<const SceneBody>> tinted_;
   ros::Time tints_sent_;
 };
 

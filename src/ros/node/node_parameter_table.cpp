@@ -51,7 +51,8 @@ ParameterTable<N> ofTheScene() {
           "cache ([what is kept](preparation_cache.md))"),
       list<N>(
           "mesh_roots", "a list of texts", [](auto& n) -> auto& { return n.mesh_roots; },
-          "where `add_body` and `apply_scene` may read mesh files: `package://` (every package), `package://<package>`, "
+          "where `add_body` and `apply_scene` may read mesh files: `package://` (every package), "
+          "`package://<package>`, "
           "absolute "
           "folders; `[]`: nowhere; unset: every package and the scene file's folder ([who may do "
           "what](security.md#mesh-files))"),

@@ -49,7 +49,7 @@ TEST(FramePoses, AreThoseOfEachPairAlone) {
   std::size_t located = 0;
   for (unsigned seed = 1; seed <= 60; ++seed) {
     std::mt19937 engine(seed);
-    const auto below = [&](unsigned n) { return engine() % n; };
+    const auto below = [&](unsigned n) { return static_cast<unsigned>(engine() % n); };
     tf2::BufferCore buffer;
     std::vector<std::string> frames;
     const unsigned publishers = 1 + below(3);
