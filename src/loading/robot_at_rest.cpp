@@ -113,21 +113,29 @@ std::vector<PairSettings*> settingsByRule(Scene& scene) {
   return all;
 }
 
+bool watchesWithoutCutoff(const Scene& scene) {
+  for (std::size_t row = 0; row < scene.rules.classes; ++row) {
+    for (std::size_t column = 0; column < scene.rules.classes; ++column) {
+      const PairRule& rule = scene.rules.of(row, column);
+      if (rule.is_watched && rule.is_enabled && !std::isfinite(settingsOf(scene, rule).tracker.cutoff))
+        return true;
+    }
+  }
+  return false;
+}
+
 }  // namespace
 
 void limitManyPairs(Scene& scene, const SceneParts& parts) {
-  std::vector<PairSettings*> without;
-  for (PairSettings* settings : settingsByRule(scene)) {
-    if (!std::isfinite(settings->tracker.cutoff)) without.push_back(settings);
-  }
-  const std::size_t pairs = without.empty() ? 0 : countRuledPairs(scene);
+  const std::size_t pairs = watchesWithoutCutoff(scene) ? countRuledPairs(scene) : 0;
   if (pairs <= kFewPairs) return;
   double diagonal = 0.0;
   for (const Poses& robot : parts.robots_at_rest) diagonal = std::max(diagonal, diagonalAt(scene, robot));
   for (const SceneBody& body : scene.bodies) diagonal = std::max(diagonal, body.mesh->diameter());
   const double cutoff = automaticCutoff(diagonal);
   if (!std::isfinite(cutoff)) return;
-  for (PairSettings* settings : without) {
+  for (PairSettings* settings : settingsByRule(scene)) {
+    if (std::isfinite(settings->tracker.cutoff)) continue;
     // An alert needs the distance.
     settings->tracker.cutoff = std::max(cutoff, settings->warning_distance.value_or(0.0));
   }
