@@ -226,7 +226,7 @@ TEST(PairRules, CountWhatTheyWatch) {
       if (i > 2 && partners.names.empty() && below(3) == 0) partners.may_touch = {"b1", "b2"};
       partners.none = partners.names.empty() && partners.may_touch.empty() && below(6) == 0;
       PairSettings settings;
-      if (below(4) == 0) settings.warning_distance = 0.1 * below(3);
+      if (below(4) == 0) settings.warning_distance = 0.1 * static_cast<double>(below(3));
       addBody(scene, body(name, "f" + std::to_string(below(9))), partners, settings);
       if (below(5) == 0) scene.rigid.join("f" + std::to_string(below(9)), "f" + std::to_string(below(9)));
     }

@@ -90,6 +90,19 @@ visualization_msgs::Marker bodyMarker(const Scene& scene, std::size_t index, con
   return marker;
 }
 
+bool isDrawn(const SceneBody& body, bool with_collision) {
+  return !body.in_robot_model || with_collision;
+}
+
+visualization_msgs::Marker markerOf(const Scene& scene, std::size_t index, double opacity) {
+  const SceneBody& body = scene.bodies[index];
+  if (body.in_robot_model) {
+    return bodyMarker(scene, index, "collision", makeColor(kCollisionColour.head<3>(), kCollisionColour[3]),
+                      kCollisionOffset * body.mesh->diameter());
+  }
+  return bodyMarker(scene, index, "bodies", makeColor(body.colour.head<3>(), opacity), 0.0);
+}
+
 }  // namespace
 
 std::size_t seenThrough(const Scene& scene, const ScenePair& pair) {
@@ -106,14 +119,30 @@ visualization_msgs::MarkerArray bodyMarkers(const Scene& scene, bool with_collis
   message.markers.back().action = visualization_msgs::Marker::DELETEALL;
   const std::vector<double> opacity = opacities(scene);
   for (std::size_t index = 0; index < scene.bodies.size(); ++index) {
-    const SceneBody& body = scene.bodies[index];
-    if (body.in_robot_model && !with_collision) continue;
-    message.markers.push_back(
-        body.in_robot_model
-            ? bodyMarker(scene, index, "collision",
-                         makeColor(kCollisionColour.head<3>(), kCollisionColour[3]),
-                         kCollisionOffset * body.mesh->diameter())
-            : bodyMarker(scene, index, "bodies", makeColor(body.colour.head<3>(), opacity[index]), 0.0));
+    if (isDrawn(scene.bodies[index], with_collision))
+      message.markers.push_back(markerOf(scene, index, opacity[index]));
+  }
+  return message;
+}
+
+std::optional<visualization_msgs::MarkerArray> movedBodyMarkers(const Scene& shown, const Scene& now,
+                                                                bool with_collision) {
+  if (shown.bodies.size() != now.bodies.size()) return std::nullopt;
+  const std::vector<double> opacity = opacities(now);
+  if (opacity != opacities(shown)) return std::nullopt;
+  visualization_msgs::MarkerArray message;
+  for (std::size_t index = 0; index < now.bodies.size(); ++index) {
+    const SceneBody& before = shown.bodies[index];
+    const SceneBody& body = now.bodies[index];
+    if (&before == &body) continue;
+    if (before.mesh != body.mesh || before.colour != body.colour ||
+        before.in_robot_model != body.in_robot_model) {
+      return std::nullopt;
+    }
+    const bool is_there =
+        before.frame == body.frame && before.frame_from_body.matrix() == body.frame_from_body.matrix();
+    if (!is_there && isDrawn(body, with_collision))
+      message.markers.push_back(markerOf(now, index, opacity[index]));
   }
   return message;
 }

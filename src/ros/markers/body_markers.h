@@ -3,6 +3,7 @@
 #include <visualization_msgs/MarkerArray.h>
 
 #include <cstddef>
+#include <optional>
 
 #include "concave_distance/scene/scene.h"
 
@@ -22,6 +23,11 @@ std::size_t seenThrough(const Scene& scene, const ScenePair& pair);
 /// @param with_collision adds the geometry that distances are computed with of the links that rviz does draw:
 ///        translucent blue, namespace `collision`
 visualization_msgs::MarkerArray bodyMarkers(const Scene& scene, bool with_collision = false);
+
+/// The same for those bodies alone that an edit has placed elsewhere since a scene whose markers were sent;
+/// nullopt when more than that has changed, so that all has to be sent.
+std::optional<visualization_msgs::MarkerArray> movedBodyMarkers(const Scene& shown, const Scene& now,
+                                                                bool with_collision = false);
 
 /// A translucent red copy of a body that is too close: namespace `warning`, the body's number as marker id,
 /// fixed to its tf frame.

@@ -8,7 +8,6 @@
 
 #include "reconfiguration.h"
 #include "ros/callback_guard.h"
-#include "ros/markers/body_markers.h"
 #include "ros/tf/frame_report.h"
 #include "ros/topics/diagnostics.h"
 #include "scene_loader.h"
@@ -77,7 +76,7 @@ DistanceServer::DistanceServer(const ros::NodeHandle& node, const ros::NodeHandl
               parameters_.cycle_budget),
       // The updater would read ~diagnostic_period unchecked; in this namespace it finds none.
       updater_(node, ros::NodeHandle(private_node, "diagnostic_updater"), std::move(name)),
-      body_markers_(private_node_.advertise<visualization_msgs::MarkerArray>("body_markers", 1, true)) {
+      body_publisher_(private_node_) {
   setUpDiagnostics();
   runner_.setRates(parameters_.rate, parameters_.marker_rate);
   runner_.setMarkers(parameters_.publish_markers, parameters_.publish_contact_markers);
@@ -223,7 +222,7 @@ void DistanceServer::doHousekeeping() {
     forgetAutomaticCutoff();
   }
   reportMissingClock();
-  publishBodies();
+  if (parameters_.show_bodies) body_publisher_.publish(keeper_.served()->scene, parameters_.show_collision);
   reportLateness();
   if (keeper_.waitingFor().empty() && isDue(last_frame_message_, kMessagePeriod)) {
     reportMissingFrames();
@@ -251,14 +250,6 @@ void DistanceServer::reportLateness() {
     ROS_WARN_STREAM(news->text << ". " << pairs << " pairs are in the scene; what helps: " << kRemedies);
   } else {
     ROS_INFO_STREAM(news->text);
-  }
-}
-
-void DistanceServer::publishBodies() {
-  const std::shared_ptr<const ServedScene> served = keeper_.served();
-  if (parameters_.show_bodies && served->scene != shown_scene_ && body_markers_.getNumSubscribers() > 0) {
-    body_markers_.publish(bodyMarkers(*served->scene, parameters_.show_collision));
-    shown_scene_ = served->scene;
   }
 }
 

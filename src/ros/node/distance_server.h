@@ -4,7 +4,6 @@
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <dynamic_reconfigure/server.h>
 #include <ros/node_handle.h>
-#include <ros/publisher.h>
 #include <ros/wall_timer.h>
 
 #include <atomic>
@@ -13,6 +12,7 @@
 #include <memory>
 #include <string>
 
+#include "body_publisher.h"
 #include "concave_distance/base/error.h"
 #include "cycle_runner.h"
 #include "node_parameters.h"
@@ -62,7 +62,6 @@ class DistanceServer {
   void onReconfigure(ConcaveDistanceConfig& config, std::uint32_t level);
   void reportMissingFrames();
   void reportMissingClock();
-  void publishBodies();
   void setUpDiagnostics();
   /// A wall timer; exceptions in its callback are logged and end there.
   ros::WallTimer startTimer(double period, const char* name, void (DistanceServer::*act)());
@@ -91,9 +90,8 @@ class DistanceServer {
   ConcaveDistanceConfig config_of_loading_;         ///< what the scene that is loading was given
   std::unique_ptr<dynamic_reconfigure::Server<ConcaveDistanceConfig>> reconfigure_;
 
-  ros::Publisher body_markers_;
-  std::shared_ptr<const Scene> shown_scene_;  ///< by body_markers_
-  SceneLoader loader_;                        ///< used by load_timer_ alone
+  BodyPublisher body_publisher_;
+  SceneLoader loader_;  ///< used by load_timer_ alone
   ros::WallTimer load_timer_;
   ros::WallTimer housekeeping_timer_;
   ros::WallTimer diagnostics_timer_;

@@ -200,5 +200,28 @@ TEST(BodyMarkers, ShowWhatTheRobotModelDoesNot) {
   EXPECT_LT(with_collision.markers[2].color.a, 0.5F);
 }
 
+TEST(BodyMarkers, OfBodiesThatAreOnlyMovedAreThoseOfTheseAlone) {
+  Scene shown;
+  for (const char* name : {"table", "crate", "link"}) shown.bodies.push_back(boxBody(name, 1.0));
+  shown.bodies.edit(2).in_robot_model = true;
+  Scene now = shown;
+  EXPECT_TRUE(movedBodyMarkers(shown, now)->markers.empty());
+  now.bodies.edit(1).frame_from_body.translation().x() = 0.5;
+  now.bodies.edit(2).frame = "gripper";
+  const auto moved = movedBodyMarkers(shown, now);
+  ASSERT_TRUE(moved);
+  ASSERT_EQ(moved->markers.size(), 1U);
+  EXPECT_EQ(moved->markers[0].id, 1);
+  EXPECT_EQ(moved->markers[0].action, Marker::ADD);
+  EXPECT_EQ(moved->markers[0].pose.position.x, 0.5);
+  EXPECT_EQ(movedBodyMarkers(shown, now, true)->markers.size(), 2U);
+  Scene painted = now;
+  painted.bodies.edit(0).colour[0] = 0.9;
+  EXPECT_FALSE(movedBodyMarkers(shown, painted)) << "another colour";
+  Scene more = now;
+  more.bodies.push_back(boxBody("new", 1.0));
+  EXPECT_FALSE(movedBodyMarkers(shown, more)) << "another body";
+}
+
 }  // namespace
 }  // namespace concave_distance::markers_test
