@@ -10,6 +10,14 @@ namespace {
 
 constexpr std::size_t kMostFramesUp = 1000;  // of frames; a longer one is a loop
 
+/// Two nodes of about one age count from one instant, so that seconds between poses are the same to the last
+/// bit. Zero would mean that there is none yet.
+ros::Time epochFor(ros::Time now) {
+  constexpr std::uint32_t kSeconds = 65536;
+  const std::uint32_t begin = now.sec - now.sec % kSeconds;
+  return {begin, begin == 0 ? 1U : 0U};
+}
+
 ros::Time earlierOf(ros::Time l, ros::Time r) {
   if (l.isZero()) return r;
   return r.isZero() ? l : std::min(l, r);
@@ -41,7 +49,7 @@ bool FramePoses::hasFrames(const std::string& reference, const std::vector<std::
 }
 
 void FramePoses::update(const tf2::BufferCore& buffer, ros::Time now, double stale_after) {
-  if (epoch_.isZero()) epoch_ = now;
+  if (epoch_.isZero()) epoch_ = epochFor(now);
   if (!is_whole_) buildTree(buffer);
   lookUpEdges(buffer, now);
   findPlaces(buffer, now, stale_after);

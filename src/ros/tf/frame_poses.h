@@ -35,7 +35,7 @@ class FramePoses {
 
   /// The bodies then are at the origins of their frames.
   /// @param frames of the bodies, in their order
-  /// @param epoch that poses() counts its seconds from; zero: the first update()
+  /// @param epoch that poses() counts its seconds from; zero: less than a day before the first update()
   void setFrames(const std::string& reference, const std::vector<std::string>& frames, ros::Time epoch);
   ros::Time epoch() const { return epoch_; }
   /// Returns whether these are the frames; setFrames() need not be called again then.
