@@ -24,7 +24,7 @@ struct NicheBasis {
   Eigen::Isometry3d poseOf(const Eigen::Isometry3d& a_from_b) const {
     return a_from_body * a_from_b * body_from_b;
   }
-  /// Metres that the solids are nearer to each other than these surfaces, and what that may be off.
+  /// Returns how much nearer to each other the solids are than these surfaces, metres.
   double margin() const { return margin_a + margin_b; }
 
   /// Forgets the last cycles.
