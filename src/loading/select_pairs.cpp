@@ -186,7 +186,7 @@ class Selection {
     if (!any) result_.notes.push_back(selectors[0].where + ": disables no watched pair");
   }
 
-  // What the general entries and `disable` say of two sources.
+  // Holds the rule that the general entries and `disable` give two sources.
   struct Said {
     PairRule rule;
     std::size_t number = 0;  ///< of the first entry

@@ -98,15 +98,16 @@ void NearPairs::adopt(Plan&& plan, bool settings_changed, std::uint64_t& largest
     const auto found = plan.slot_of.find(body.body->serial);
     if (found == plan.slot_of.end()) sweep_.remove(body.slot);
   }
+  const auto go_on_as = [&](std::shared_ptr<const ScenePair>& pair, TrackedPair& tracked) {
+    if (pair == tracked.origin && !settings_changed) return;
+    const auto& a = plan.scene.bodies.share(pair->body_a);
+    const auto& b = plan.scene.bodies.share(pair->body_b);
+    tracked.adopt(std::move(pair), a, b, settings_changed);
+  };
   std::size_t kept = 0;
   for (std::size_t i = 0; i < pairs_.size(); ++i) {
-    std::shared_ptr<const ScenePair>& pair = plan.pairs[i];
-    if (!pair) continue;
-    if (pair != pairs_[i]->origin || settings_changed) {
-      const auto& a = plan.scene.bodies.share(pair->body_a);
-      const auto& b = plan.scene.bodies.share(pair->body_b);
-      pairs_[i]->adopt(std::move(pair), a, b, settings_changed);
-    }
+    if (!plan.pairs[i]) continue;
+    go_on_as(plan.pairs[i], *pairs_[i]);
     pairs_[kept] = std::move(pairs_[i]);
     entries_[kept] = entries_[i];
     ++kept;
@@ -116,16 +117,11 @@ void NearPairs::adopt(Plan&& plan, bool settings_changed, std::uint64_t& largest
   entry_of_.clear();
   std::size_t rests = 0;
   for (std::size_t i = 0; i < resting_.size(); ++i) {
-    std::shared_ptr<const ScenePair>& pair = plan.resting[i];
-    if (!pair) {
+    if (!plan.resting[i]) {
       largest_id = std::max(largest_id, resting_[i].pair->largest_id);
       continue;
     }
-    if (pair != resting_[i].pair->origin || settings_changed) {
-      const auto& a = plan.scene.bodies.share(pair->body_a);
-      const auto& b = plan.scene.bodies.share(pair->body_b);
-      resting_[i].pair->adopt(std::move(pair), a, b, settings_changed);
-    }
+    go_on_as(plan.resting[i], *resting_[i].pair);
     if (rests != i) resting_[rests] = std::move(resting_[i]);
     ++rests;
   }

@@ -25,7 +25,7 @@ struct PairRule {
   bool is_watched = false;  ///< unless a filter leaves the pair out
   bool is_enabled = true;
   PairOrder order = PairOrder::Earlier;
-  /// Place in PairRules::settings; 0: Scene::defaults, whatever stands in that place
+  /// Place in PairRules::settings; 0 stands for Scene::defaults, and the entry at 0 is not read.
   std::uint32_t settings = 0;
 };
 

@@ -64,7 +64,7 @@ struct SceneBody {
   Eigen::Vector4d colour = Eigen::Vector4d(0.6, 0.6, 0.65, 1.0);  ///< red, green, blue, opacity in [0, 1]
   Material material;                                              ///< for contact forces
   std::string label;  ///< what names of pairs call it; empty: its name
-  /// The same as long as it is this body, whatever of it is edited.
+  /// Stays the same through all edits of this body.
   std::uint64_t serial = newBodySerial();
   std::uint32_t pair_class = 0;                     ///< row of Scene::rules
   std::shared_ptr<const AddedBodyRule> added_rule;  ///< nullptr: it came with the scene

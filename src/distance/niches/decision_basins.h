@@ -44,7 +44,7 @@ class DecisionBasins {
   std::uint64_t keep(std::uint64_t id, std::uint32_t first, const TrianglePair& around);
 
   using Progress = BasinProgress;
-  /// The same as keep() until time ends it. The basin is asked for only when it is whole.
+  /// Does as keep() until time ends it. The basin is asked for only when it is whole.
   void keepSome(const TrianglePair& around, Progress& progress);
 
  private:
@@ -80,8 +80,8 @@ class DecisionBasins {
   std::uint32_t begin(std::uint64_t id, const TrianglePair& around);
   /// Extends a kept basin by what the last search has visited; without memory it drops it and returns false.
   bool extend(std::uint32_t index);
-  /// The same for a search that time has cut, so that the next one goes on from there: what surrounds the
-  /// facet pairs that it has looked at becomes boundary, as far as it is not known at a distance of 0.
+  /// Does so for a search that time has cut, so that the next one goes on from there: the surroundings of the
+  /// facet pairs that it has looked at become boundary, as far as they are not known at a distance of 0.
   void extendPartly(std::uint32_t index);
   /// Parts a facet pair of the basin from those that the search has only reached. False without memory.
   bool partFromReached(const TrianglePair& pair, std::uint32_t index);

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t kNoOwner = LocalMinima::kNoOwner;
 constexpr std::size_t kUndecided = LocalMinima::kUndecided;
-/// Of the time, for a search that was suspended, where the other niches go on beside it.
+/// A suspended search gets this share of the time where the other niches go on beside it.
 constexpr double kShareOfSuspended = 0.3;
 
 }  // namespace

@@ -65,7 +65,7 @@ bool OverlapParts::findSets(const PairFrame& frame, LocalMinimaCost& cost, WorkL
   const bool has_all_pairs = met_.collect(frame, cost, limit);
   if (sets_.join(frame, met_, limit) && has_all_pairs) return true;
   if (sets_.size() < met_.pairs().size()) return false;
-  // What was one part at the last pose is taken for one.
+  // Sets that were one part at the last pose are taken for one.
   for (const Earlier& part : earlier_) {
     std::uint32_t known = kNone;
     for (std::uint32_t k = part.first; k < part.last; ++k) {

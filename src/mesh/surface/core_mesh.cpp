@@ -7,7 +7,8 @@
 namespace concave_distance::detail {
 namespace {
 
-/// Of the radius. Normals of the mesh are good to rounding, as the core lies on the axes of its frame.
+/// The thickness is this share of the radius. Normals are good to rounding: the core lies on its frame's
+/// axes.
 constexpr double kThickness = 0x1.0p-27;
 
 }  // namespace

@@ -24,8 +24,8 @@ std::size_t seenThrough(const Scene& scene, const ScenePair& pair);
 ///        translucent blue, namespace `collision`
 visualization_msgs::MarkerArray bodyMarkers(const Scene& scene, bool with_collision = false);
 
-/// The same for those bodies alone that an edit has placed elsewhere since a scene whose markers were sent;
-/// nullopt when more than that has changed, so that all has to be sent.
+/// Returns the markers of those bodies alone that edits have placed elsewhere since `shown`, whose markers
+/// were sent; nullopt when more than that has changed, so that all have to be sent.
 std::optional<visualization_msgs::MarkerArray> movedBodyMarkers(const Scene& shown, const Scene& now,
                                                                 bool with_collision = false);
 

@@ -13,7 +13,7 @@
 namespace concave_distance {
 namespace {
 
-// Of listed pairs or in rules.
+// Returns whether the settings of a listed pair or of a rule are such.
 template <typename IsIt>
 bool isInSettings(const Scene& scene, const IsIt& is_it) {
   return std::any_of(scene.pairs.begin(), scene.pairs.end(),

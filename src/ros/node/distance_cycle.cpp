@@ -95,7 +95,7 @@ CycleCounts DistanceCycle::run(const SceneTracker::DemandOf& demand_of, ros::Tim
   return counts;
 }
 
-// What is published of a pair goes where the pair is now.
+// Moves the publishers of each pair to the place that the pair has now.
 void DistanceCycle::followPairs() {
   const SceneTracker::Pairs& tracked = tracker_.pairs();
   const auto is_there = [&](std::size_t i) {
