@@ -96,6 +96,7 @@ struct ScenePair {
   std::size_t body_b = 0;
   bool enabled = true;
   PairSettings settings;
+  bool is_from_rule = false;  ///< no request or entry of a scene file names it by itself
 };
 
 /// A body or element that could not be loaded: the rest of the scene is served without it. The message names
