@@ -1,6 +1,5 @@
 #include "topic_publishers.h"
 
-#include <concave_distance/Alert.h>
 #include <concave_distance/Contacts.h>
 #include <concave_distance/Distances.h>
 #include <concave_distance/Nearest.h>
@@ -12,6 +11,7 @@
 #include <boost/make_shared.hpp>
 #include <utility>
 
+#include "alerts.h"
 #include "nearest.h"
 #include "ros/markers/scene_markers.h"
 #include "ros/messages/contact_conversions.h"
@@ -19,12 +19,6 @@
 
 namespace concave_distance {
 namespace {
-
-constexpr std::uint32_t kAlertQueueLength = 100;  // none of them is to be lost
-
-static_assert(Alert::CLEAR == static_cast<int>(WarningState::Clear));
-static_assert(Alert::WARNING == static_cast<int>(WarningState::Warning));
-static_assert(Alert::UNKNOWN == static_cast<int>(WarningState::Unknown));
 
 PairNiches toMessage(const PublishedPair& pair) {
   if (pair.tracked->solved()) {
@@ -51,16 +45,6 @@ PairContactState toContactMessage(const PublishedPair& pair) {
     return toContacts(pair.heading, pair.status, apart, pair.tracked->input.a_from_b);
   }
   return emptyContacts(pair.heading, pair.status);
-}
-
-Alert toAlert(const PublishedPair& pair, const PairDistance& nearest) {
-  Alert alert;
-  alert.header = nearest.header;
-  alert.state = static_cast<std::uint8_t>(pair.tracked->warning.state());
-  alert.warning_distance = pair.tracked->settings.warning_distance.value_or(kNotComputed);
-  alert.hysteresis = pair.tracked->settings.warning_hysteresis;
-  alert.nearest = nearest;
-  return alert;
 }
 
 // Fills what is said of the pairs that are not listed.
@@ -107,6 +91,7 @@ TopicPublishers::TopicPublishers(const ros::NodeHandle& node, std::string refere
     : node_(node),
       reference_frame_(std::move(reference_frame)),
       pair_topics_(node_, std::move(pair_topics)),
+      groups_(node_, reference_frame_),
       nearest_(WatchedTopic::advertise<Nearest>(node_, "nearest", kQueueLength)),
       nearest_distance_(WatchedTopic::advertise<std_msgs::Float64>(node_, "nearest_distance", kQueueLength)),
       distances_(WatchedTopic::advertise<Distances>(node_, "distances", kQueueLength)),
@@ -128,6 +113,7 @@ std::shared_ptr<const ServedScene> TopicPublishers::serve(Scene scene, const Ser
     served->revision = before->revision + 1;
   }
   served->scene = std::make_shared<const Scene>(std::move(scene));
+  served->groups = groups_.serve(*served->scene, before == nullptr ? nullptr : &before->groups);
   served->marker_style = style;
   static const PairTopicList kNoTopics;
   served->topics = pair_topics_.topicsOf(*served->scene, before == nullptr ? nullptr : before->scene.get(),
@@ -141,6 +127,7 @@ void TopicPublishers::readDemand(const ServedScene& served, const MarkerOptions&
   niches_wanted_ = niches_.isWatched();
   contacts_wanted_ = contacts_.isWatched();
   alerts_wanted_ = alerts_.isWatched();
+  groups_.readDemand(served.groups);
   own_wanted_ = std::any_of(served.topics.begin(), served.topics.end(), [](const auto& own) {
     return own && (own->distance.isWatched() || own->niches.isWatched() || own->contacts.isWatched());
   });
@@ -167,7 +154,8 @@ PairDemand TopicPublishers::demandOf(const ServedScene& served, std::size_t plac
   const bool contacts = (contacts_wanted_ || own.contacts.isWatched()) && settings.effects.any();
   PairDemand pair;
   pair.due = nearest_wanted_ || distances_wanted_ || niches_wanted_ || alert || own_niches || contacts ||
-             own.distance.isWatched() || (markers_wanted_ && are_markers_due_);
+             own.distance.isWatched() || groups_.wants(served.groups, tracked) ||
+             (markers_wanted_ && are_markers_due_);
   pair.watched = pair.due || markers_wanted_;
   pair.effects = contacts || (contact_markers_wanted_ && settings.effects.any());
   // A contact's id is its niche's.
@@ -178,7 +166,7 @@ PairDemand TopicPublishers::demandOf(const ServedScene& served, std::size_t plac
 
 bool TopicPublishers::isIdle() const {
   return !nearest_wanted_ && !distances_wanted_ && !niches_wanted_ && !contacts_wanted_ && !alerts_wanted_ &&
-         !own_wanted_ && !markers_wanted_ && !markers_due_;
+         groups_.isIdle() && !own_wanted_ && !markers_wanted_ && !markers_due_;
 }
 
 PublishReport TopicPublishers::publish(const ServedScene& served, const PublishedPairs& pairs,
@@ -209,6 +197,7 @@ PublishReport TopicPublishers::publish(const ServedScene& served, const Publishe
     }
   }
   publishNearest(pairs, others, now);
+  groups_.publish(*served.scene, served.revision, served.groups, pairs, others, now);
   publishAlerts(pairs);
   publishContacts(served, pairs, now);
   if (markers_due_) {
@@ -229,14 +218,14 @@ void TopicPublishers::publishAlerts(const PublishedPairs& pairs) {
   const bool repeat = repeat_alerts_.exchange(false);
   for (const auto& pair : pairs) {
     if (pair->tracked->warning_changed || (repeat && pair->tracked->warning.state() != WarningState::Clear)) {
-      alerts_.publish(boost::make_shared<Alert>(toAlert(*pair, toMessage(*pair).nearest)));
+      alerts_.publish(boost::make_shared<Alert>(toAlert(*pair)));
     }
   }
 }
 
 void TopicPublishers::publishRetired(const PublishedPairs& pairs) {
   for (const auto& pair : pairs) {
-    alerts_.publish(boost::make_shared<Alert>(toAlert(*pair, toMessage(*pair).nearest)));
+    alerts_.publish(boost::make_shared<Alert>(toAlert(*pair)));
   }
 }
 

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "concave_distance/scene/scene.h"
+#include "group_topics.h"
 #include "pair_topics.h"
 #include "ros/markers/marker_style.h"
 #include "ros/messages/published_pair.h"
@@ -25,7 +26,8 @@ class SceneMarkers;
 /// A scene together with the topics of its pairs: what one cycle works on.
 struct ServedScene {
   std::shared_ptr<const Scene> scene;
-  PairTopicList topics;                 ///< one per scene->pairs: only listed pairs have topics
+  PairTopicList topics;  ///< one per scene->pairs: only listed pairs have topics
+  ServedGroups groups;
   MarkerStyle marker_style;             ///< as configured
   std::uint64_t settings_revision = 0;  ///< another one: the settings of pairs that were there have changed
   std::uint64_t revision = 0;           ///< another one: another scene
@@ -91,6 +93,7 @@ class TopicPublishers {
   ros::NodeHandle node_;
   std::string reference_frame_;
   PairTopicKeeper pair_topics_;
+  GroupPublishers groups_;
   WatchedTopic nearest_;
   WatchedTopic nearest_distance_;
   WatchedTopic distances_;
