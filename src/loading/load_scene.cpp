@@ -337,7 +337,10 @@ std::vector<LoadedBody> loadBodies(const std::vector<BodyDescription>& descripti
   for (std::size_t i = 0; i < built.size(); ++i) {
     loaded[i].body = std::move(built[i].body);
     if (loaded[i].body) continue;
-    loaded[i].problem.emplace("body '" + descriptions[i].name + "'", built[i].problem, "it is not added");
+    const std::string where = "body '" + descriptions[i].name + "'";
+    std::string& problem = built[i].problem;
+    if (problem.rfind(where + ": ", 0) == 0) problem.erase(0, where.size() + 2);  // it is said once
+    loaded[i].problem.emplace(where, problem, "it is not added");
   }
   return loaded;
 }

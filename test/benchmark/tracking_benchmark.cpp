@@ -11,11 +11,10 @@
 // distance alone; mean niches; instants; answers that are off FCL's or not proven (wrong, 0 expected) and
 // instants that list fewer than 64 niches of which not all are proven to be found (incomplete, 0 expected);
 // memory of both bodies and of the tracker, kilobytes.
-#include <CLI/CLI.hpp>
-#include <chrono>
 
 #include "benchmark/support/benchmark_main.h"
 #include "benchmark/support/benchmark_pairs.h"
+#include "benchmark/support/program_options.h"
 #include "benchmark/support/result_table.h"
 #include "benchmark/support/statistics.h"
 #include "benchmark/support/stopwatch.h"
@@ -49,14 +48,10 @@ TrackerParameters certified(bool niches_wanted) {
 }
 
 void prepare(const BenchmarkPair& pair, Row& row) {
-  const auto start = std::chrono::steady_clock::now();
-  PreparationTask(pair.a, pair.b, certified(true)).run();
-  row.prepare_ms = 1e-3 * microsecondsSince(start);
+  row.prepare_ms = millisecondsOf([&] { PreparationTask(pair.a, pair.b, certified(true)).run(); });
   PairTracker tracker(pair.name, pair.a, pair.b, certified(true));
   PairSolution solution;
-  const auto first = std::chrono::steady_clock::now();
-  tracker.update(pair.motion(0.0), 0.0, solution);
-  row.first_list_ms = 1e-3 * microsecondsSince(first);
+  row.first_list_ms = millisecondsOf([&] { tracker.update(pair.motion(0.0), 0.0, solution); });
 }
 
 Row run(const BenchmarkPair& pair, int steps) {
@@ -78,9 +73,7 @@ Row run(const BenchmarkPair& pair, int steps) {
                      : 1;
   };
   const auto take = [&](std::vector<double>& times, const auto& solve) {
-    const auto start = std::chrono::steady_clock::now();
-    solve();
-    times.push_back(microsecondsSince(start));
+    times.push_back(1e3 * millisecondsOf(solve));
   };
   for (int k = 0; k < steps; ++k) {
     const double t = steps > 1 ? static_cast<double>(k) / (steps - 1) : 0.0;
@@ -110,18 +103,16 @@ Row run(const BenchmarkPair& pair, int steps) {
 }  // namespace
 
 int benchmarkMain(int argc, char** argv) {
-  CLI::App app("Tracked and cold solves beside FCL, one run, one thread");
+  ProgramOptions options("Tracked and cold solves beside FCL, one run, one thread");
   std::vector<std::string> names = allPairs();
   int steps = 500;
-  std::string output;
-  app.add_option("--pairs", names, "Pairs to run, or `simple`; all when left out")->delimiter(',');
-  app.add_option("--steps", steps, "Instants along each motion")->check(CLI::Range(2, 1000000));
-  app.add_option("--output", output, "CSV file to write");
-  CLI11_PARSE(app, argc, argv);
+  options.add("--pairs", names, "Pairs to run, or `simple`; all when left out");
+  options.add("--steps", steps, "Instants along each motion", 2);
+  if (!options.read(argc, argv)) return options.status();
   if (names == std::vector<std::string>{"simple"}) names = simplePairs();
 
   ResultTable table(
-      output,
+      options.output(),
       "pair,triangles_a,triangles_b,prepare_ms,first_list_ms,fcl_us,cold_us,first_us,warm_us,warm_p99_us,"
       "warm_over_fcl,"
       "alone_us,alone_p99_us,fcl_over_alone,niches,instants,wrong,incomplete,bodies_kb,tracker_kb");
