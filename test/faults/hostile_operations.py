@@ -8,6 +8,7 @@ import time
 import ros_wire
 import rospy
 from attacks import Failed, Group, expect, shortened
+from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import Point, Pose
 from request_checks import LONGEST_MESSAGE, MEGABYTE, call
 from shape_msgs.msg import Mesh, MeshTriangle, SolidPrimitive
@@ -117,7 +118,7 @@ for key, value in {"nan": NAN, "inf": INF, "1e308": 1e308}.items():
     refuse("add_at_" + key, lambda arena, value=value: [box(arena, "part", pose=pose_at(value))], "pose")
 for key, value in {"nan": NAN, "negative": -1.0, "inf": INF, "1e308": 1e308}.items():
     refuse("margin_" + key, lambda arena, value=value: [operation(arena, MARGIN, "comb", margin=value)], "margin")
-    refuse("size_" + key, lambda arena, value=value: [box(arena, "part", value)], "part" if value == 1e308 else "dimensions")
+    refuse("size_" + key, lambda arena, value=value: [box(arena, "part", value)], "body 'part': ")
 for key, text in {"empty": "", "blank": "a b", "of_a_megabyte": MEGABYTE, "nul": "a\0", "slash": "a//b", "pattern": "*"}.items():
     refuse("name_" + key, lambda arena, text=text: [box(arena, text)], "topic name")
 for key, text in {"empty": "", "blank": "a b", "of_a_megabyte": MEGABYTE, "nul": "a\0"}.items():
@@ -232,6 +233,8 @@ class Stream:
     def __init__(self, arena):
         self.arena = arena
         self.publisher = rospy.Publisher(arena.node.name + "/scene_moves", arena.messages.SceneMoves, queue_size=10)
+        self.refused, self.last_refusal = None, ""
+        self.diagnostics = rospy.Subscriber("/diagnostics", DiagnosticArray, self.read, queue_size=10)
         arena.wait_until(lambda: self.publisher.get_num_connections() > 0, 10.0, "the node does not subscribe to scene_moves")
 
     def __enter__(self):
@@ -241,8 +244,15 @@ class Stream:
 
     def __exit__(self, *_):
         self.publisher.unregister()
+        self.diagnostics.unregister()
         if self.arena.node.alive():
             apply(self.arena, [operation(self.arena, REMOVE, "drum")])
+
+    def read(self, message):
+        for status in message.status:
+            values = {value.key: value.value for value in status.values}
+            if "moves refused since the start" in values:
+                self.refused, self.last_refusal = int(values["moves refused since the start"]), values["last refusal"]
 
     def send(self, bodies, poses, frame=""):
         message = self.arena.messages.SceneMoves(bodies=bodies, poses=poses)
@@ -272,11 +282,14 @@ MOVES = {
 
 
 def stream_of(arena, bodies, poses, frame, word):
-    """The move is dropped and named in the log; the next one is applied."""
+    """The move is dropped, counted and named in the diagnostics; the next one is applied."""
     with Stream(arena) as stream:
+        arena.wait_until(lambda: stream.refused is not None, 15.0, "no diagnostics come")
+        before = stream.refused
         mark = arena.node.log_length()
         stream.send(bodies, poses, frame)
-        arena.wait_until(lambda: word in arena.node.log(mark), 15.0, "the log does not name '%s'" % word)
+        arena.wait_until(lambda: stream.refused > before and word in stream.last_refusal, 15.0,
+                         "the diagnostics do not name '%s': %s" % (word, shortened(stream.last_refusal)))
         expect(len(arena.node.log(mark)) < 10 * LONGEST_MESSAGE, "the log grew by %d bytes" % len(arena.node.log(mark)))
         expect(abs(stream.place()) < 1e-9, "drum was moved")
         stream.require_follows(2.0)

@@ -6,12 +6,12 @@
 // A row is a pair, an edit of its body B, whether what niches need of the new mesh had been made before the
 // time began, and a time. Edits: `remeshed`, the same surface with four triangles for each; `deformed`, moved
 // smoothly by up to a hundredth of its size; `scaled`, a twentieth larger. Recall is the mean share, over
-// instants of the motion and runs, of the niches of the new pair (proven without a limit) that is found:
-// `proof`, by a tracker at `certified` that starts from nothing and does not search; `random`, by descents
-// from random node pairs, as many as there is time for; `inherited`, by refining the niches of the old mesh
-// on the new one; `evolved`, the same and generations of the search, inherited from them, as at level
-// `refined`. Also the niches, the milliseconds of making normal cones (for the proof) and grids (for both
-// searches).
+// instants of the motion and runs, of the niches of the new pair (listed without a limit, within a quarter of
+// the smaller body or five times the distance) that is found: `proof`, by a tracker at `certified` that
+// starts from nothing and does not search; `random`, by descents from random node pairs, as many as there is
+// time for; `inherited`, by refining the niches of the old mesh on the new one; `evolved`, the same and
+// generations of the search, inherited from them, as at level `refined`. Also the niches, the milliseconds of
+// making normal cones (for the proof) and grids (for both searches).
 #include <algorithm>
 #include <cmath>
 
@@ -21,6 +21,7 @@
 #include "benchmark/support/result_table.h"
 #include "benchmark/support/statistics.h"
 #include "benchmark/support/stopwatch.h"
+#include "concave_distance/mesh/repair/repair_mesh.h"
 #include "concave_distance/tracking/pair_tracker.h"
 #include "distance/bound/closest_point.h"
 #include "distance/kernels/witness_refinement.h"
@@ -28,8 +29,8 @@
 #include "search/grid/body_grid.h"
 #include "search/grid/mesh_metric.h"
 #include "search/grid/node_graph.h"
-#include "thesis/benchmark/support/proven_niches.h"
-#include "thesis/src/evaluation/multi_start_descent.h"
+#include "search/local_descent.h"
+#include "search/mutation.h"
 #include "tracking/niche_placement.h"
 #include "tracking/niche_search.h"
 
@@ -112,15 +113,26 @@ Witnesses refined(const Instant& at, const Mesh& b, const std::vector<TrialPoint
   return found;
 }
 
-TrackerParameters listing() {  // as provenNiches()
+TrackerParameters listing() {
   TrackerParameters parameters;
   parameters.hidden = true;
   parameters.largest_niche_count = 10000;
   return parameters;
 }
 
+/// The list without a limit of time, below 5 times the distance or a quarter of the smaller body.
+std::vector<TrackedNiche> provenNiches(const Mesh& a, const Mesh& b, const Isometry3d& pose) {
+  const PairSolution solution = solveOnce("edit", a, b, listing(), pose);
+  const double cutoff = std::max(5.0 * solution.distance, 0.25 * std::min(a->diameter(), b->diameter()));
+  std::vector<TrackedNiche> niches;
+  for (const TrackedNiche& niche : solution.niches) {
+    if (niche.distance > 0.0 && niche.distance <= cutoff) niches.push_back(niche);
+  }
+  return niches;
+}
+
 Witnesses byProof(const Instant& at, const Mesh& b, Clock::time_point end) {
-  PreparationTask(at.a, b, listing()).run();
+  PreparationTask(at.a, b, listing()).makeNiches();
   TrackerParameters parameters = listing();
   parameters.search_share = 0.0;
   parameters.time_budget = std::chrono::duration<double>(end - Clock::now()).count();
@@ -139,27 +151,27 @@ Witnesses byProof(const Instant& at, const Mesh& b, Clock::time_point end) {
 }
 
 Witnesses byRandomStarts(const Instant& at, const Mesh& b, std::uint64_t seed, Clock::time_point end) {
-  constexpr std::uint32_t kDescents = 16;  // between two looks at the clock
+  constexpr std::uint32_t kDescents = 4;  // between two looks at the clock
   const PairObjective objective(*at.a, *b, at.pose);
   SearchWorkspace workspace(*at.a, *b);
   RandomEngine engine(seed);
-  std::vector<TrialPoint> minima;
+  SearchCost cost;
+  gridOf(*b).graph();
   while (Clock::now() < end) {
-    multiStartDescent(objective, kDescents, engine, workspace);
-    const auto& met = workspace.basins.minima();
-    minima.insert(minima.end(), met.begin(), met.end());
+    for (std::uint32_t i = 0; i < kDescents; ++i) {
+      descend(objective, randomTrialPoint(objective, engine), &workspace.basins, workspace.trail, cost);
+    }
   }
-  std::sort(minima.begin(), minima.end());
-  minima.erase(std::unique(minima.begin(), minima.end(), samePlace), minima.end());
-  return refined(at, b, minima);
+  return refined(at, b, workspace.basins.minima());
 }
 
 // What the niches of the old mesh are on the new one: each end at the closest point, then the minimum there.
-Witnesses byInheritance(const Instant& at, const Mesh& b) {
+Witnesses byInheritance(const Instant& at, const Mesh& b, Clock::time_point end) {
   RefinementWorkspace workspace;
   Witnesses found;
   const Isometry3d b_from_a = at.pose.inverse();
   for (const TrackedNiche& niche : at.before) {
+    if (Clock::now() >= end) break;
     const SurfacePoint on_a = closestPoint(*at.a, niche.point_a_in_a, TriangleIndex{0});
     const SurfacePoint on_b = closestPoint(*b, b_from_a * niche.point_b_in_a, TriangleIndex{0});
     found.push_back(refineWitness(*at.a, *b, at.pose, on_a.triangle, on_b.triangle, workspace).witness);
@@ -168,7 +180,7 @@ Witnesses byInheritance(const Instant& at, const Mesh& b) {
 }
 
 Witnesses byEvolution(const Instant& at, const Mesh& b, std::uint64_t seed, Clock::time_point end) {
-  Witnesses found = byInheritance(at, b);
+  Witnesses found = byInheritance(at, b, end);
   TrackerParameters parameters = listing();
   parameters.seed = seed;
   const detail::PairFrame frame(*at.a, *b, at.pose);
@@ -211,7 +223,7 @@ double recallOf(const Instant& at, std::size_t method, bool is_prepared, double 
     case 1:
       return shareOf(at, byRandomStarts(at, b, seed, end));
     case 2:
-      return shareOf(at, byInheritance(at, b));
+      return shareOf(at, byInheritance(at, b, end));
     default:
       return shareOf(at, byEvolution(at, b, seed, end));
   }
@@ -227,7 +239,8 @@ std::vector<Instant> instantsOf(const BenchmarkPair& pair, const SurfaceMesh& su
   const auto known = std::make_shared<const BodyMesh>("b", SurfaceMesh(surface_b), BodyMeshOptions());
   PreparationTask(pair.a, pair.b, listing()).run();
   preparation.grid_ms.push_back(millisecondsOf([&] { gridOf(*known).graph(); }));
-  preparation.cones_ms.push_back(millisecondsOf([&] { PreparationTask(pair.a, known, listing()).run(); }));
+  preparation.cones_ms.push_back(
+      millisecondsOf([&] { PreparationTask(pair.a, known, listing()).makeNiches(); }));
   gridOf(*known).metric();
   std::vector<Instant> instants;
   for (int k = 0; k < count; ++k) {
@@ -236,8 +249,8 @@ std::vector<Instant> instantsOf(const BenchmarkPair& pair, const SurfaceMesh& su
                &surface_b,
                known,
                pose,
-               provenNiches(pair.name, pair.a, pair.b, pose),
-               provenNiches(pair.name, pair.a, known, pose)};
+               provenNiches(pair.a, pair.b, pose),
+               provenNiches(pair.a, known, pose)};
     if (!at.wanted.empty()) instants.push_back(std::move(at));
   }
   return instants;
