@@ -2,7 +2,7 @@
 """The demo crowd: adds bodies of many shapes to the node's scene in one batch, and moves each on a path of its own.
 
 rosrun concave_distance move_crowd.py [_bodies:=200] [_rate:=50] [_speed:=1]
-The bodies stand on a floor, with 1.6 square metres each; each is in a tf frame of its own, which follows a sum of
+The bodies stand on a floor, with 2.2 square metres each; each is in a tf frame of its own, which follows a sum of
 slow sines about the body's home.
 """
 
@@ -18,8 +18,9 @@ from shape_msgs.msg import SolidPrimitive
 from std_msgs.msg import ColorRGBA
 from tf2_msgs.msg import TFMessage
 
-AREA = 1.6       # m2, for each body
+AREA = 2.2       # m2, for each body
 SEED = 4
+FIRST_POSES = 25  # on tf before the bodies that they are for
 BLUE, ORANGE = ColorRGBA(0.35, 0.55, 0.80, 1.0), ColorRGBA(0.90, 0.62, 0.30, 1.0)
 GREEN, GREY = ColorRGBA(0.45, 0.70, 0.50, 1.0), ColorRGBA(0.62, 0.62, 0.68, 1.0)
 
@@ -56,7 +57,7 @@ def shape_of(index, engine):
 class Walker:
     def __init__(self, home, engine):
         self.home = home
-        self.waves = [(engine.uniform(0.2, 0.5), 0.25 * (order + 1), engine.uniform(0.0, 6.3), engine.uniform(0.0, 6.3))
+        self.waves = [(engine.uniform(0.2, 0.4), 0.25 * (order + 1), engine.uniform(0.0, 6.3), engine.uniform(0.0, 6.3))
                       for order in range(2)]
         self.turn = engine.uniform(-0.4, 0.4)
 
@@ -99,14 +100,15 @@ def main():
     publisher = rospy.Publisher("/tf", TFMessage, queue_size=2)
     tick = rospy.Rate(rospy.get_param("~rate", 50.0))
     began = rospy.Time.now()
-    is_added = False
+    published, is_added = 0, False
     while not rospy.is_shutdown():
         now = rospy.Time.now()
         for walker, message in zip(walkers, transforms):
             message.header.stamp = now
             walker.place(speed * (now - began).to_sec(), message)
         publisher.publish(TFMessage(transforms))
-        if not is_added:
+        published += 1
+        if not is_added and published > FIRST_POSES:
             response = add(ApplySceneRequest(operations=operations))
             is_added = response.success
             rospy.loginfo("%d bodies added in one batch: %s", count, response.message or "all well")

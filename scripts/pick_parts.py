@@ -22,7 +22,7 @@ from std_msgs.msg import ColorRGBA
 PART = "part"
 SIZE = (0.06, 0.06, 0.16)        # m
 IN_CRATE = (0.30, 0.74, 0.099)   # its middle: 4 mm above the crate's floor
-NEAR = 0.02                      # rad, every joint
+NEAR = 0.004                     # rad, every joint
 ORANGE = ColorRGBA(0.93, 0.49, 0.16, 1.0)
 STATES = {Alert.CLEAR: "clear", Alert.WARNING: "near", Alert.UNKNOWN: "unknown"}
 
