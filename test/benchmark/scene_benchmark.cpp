@@ -84,24 +84,28 @@ void runOwn(const ManyBodies& cell, std::uint32_t threads, int cycles, Row& row)
   double time = 0.0;
   std::vector<Poses> poses;
   for (int step = 0; step < cycles; ++step) poses.push_back(cell.posesAt(kPeriod * step));
-  SceneTracker broad({threads, nullptr});
-  broad.setScene(cell.scene);
-  for (int step = 0; step < cycles; ++step) {
-    const double taken = millisecondsOf(
-        [&] { broad.update(poses[static_cast<std::size_t>(step)], kPeriod * step, kNothing); });
-    if (step > 0) row.broad_ms.push_back(taken);
-  }
-  SceneTracker distances({threads, nullptr});
-  distances.setScene(cell.scene);
-  for (int step = 0; step < cycles; ++step) {
-    const double taken = millisecondsOf(
-        [&] { distances.update(poses[static_cast<std::size_t>(step)], kPeriod * step, kDistance); });
-    if (step == 0) {
-      row.first_ms = taken;
-      continue;
+  {
+    SceneTracker broad({threads, nullptr});
+    broad.setScene(cell.scene);
+    for (int step = 0; step < cycles; ++step) {
+      const double taken = millisecondsOf(
+          [&] { broad.update(poses[static_cast<std::size_t>(step)], kPeriod * step, kNothing); });
+      if (step > 0) row.broad_ms.push_back(taken);
     }
-    row.distance_ms.push_back(taken);
-    count(distances, row);
+  }
+  {
+    SceneTracker distances({threads, nullptr});
+    distances.setScene(cell.scene);
+    for (int step = 0; step < cycles; ++step) {
+      const double taken = millisecondsOf(
+          [&] { distances.update(poses[static_cast<std::size_t>(step)], kPeriod * step, kDistance); });
+      if (step == 0) {
+        row.first_ms = taken;
+        continue;
+      }
+      row.distance_ms.push_back(taken);
+      count(distances, row);
+    }
   }
   SceneTrackerOptions options{threads, nullptr};
   options.prepares_in_background = true;
