@@ -118,7 +118,7 @@ TEST(NichePreparation, ListsAreCompleteBeforeTheSearchIsMadeWhichJoinsLater) {
 TEST(NichePreparation, ItKeepsNoMeshThatIsGoneAndMakesNothingForAPairThatIs) {
   SceneTracker tracker({1, nullptr, true});
   std::vector<std::weak_ptr<const BodyMesh>> meshes;
-  for (int k = 0; k < 200; ++k) {
+  for (int k = 0; k < 20; ++k) {
     const Scene scene = twoBumpyBalls();
     meshes.emplace_back(scene.bodies[0].mesh);
     tracker.setScene(scene);
