@@ -4,7 +4,7 @@
 
 #include "concave_distance/base/error.h"
 #include "scene/name_pattern.h"
-#include "wording.h"
+#include "kinematics/wording.h"
 
 namespace concave_distance::detail {
 namespace {

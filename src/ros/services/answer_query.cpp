@@ -9,7 +9,7 @@
 #include "concave_distance/base/error.h"
 #include "concave_distance/tracking/pair_effects.h"
 #include "concave_distance/tracking/pair_tracker.h"
-#include "loading/frame_name.h"
+#include "kinematics/frame_name.h"
 #include "request_conversions.h"
 #include "ros/messages/contact_conversions.h"
 #include "ros/messages/conversions.h"
