@@ -1,8 +1,9 @@
 #include "niche_places.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+
+#include "distance/niches/round_corners.h"
 
 namespace concave_distance::detail {
 namespace {
@@ -35,16 +36,16 @@ const std::vector<NichePlace>& NichePlaces::of(const TrackedPair& pair, const Tr
   const BodyMesh& a = *pair.body_a->mesh;
   const BodyMesh& b = *pair.body_b->mesh;
   const NichePlace own = placeOf(niche);
-  const bool has_round = a.shape() != nullptr || b.shape() != nullptr;
   std::size_t count = 0;
-  std::array<CornerPair, kMostCorners> corners;
+  CornerPairs corners;
   // Touching surfaces have no direction but the niche's.
-  if (!has_round && !own.is_overlapping && niche.witness.squared_distance > 0.0) {
+  if (!own.is_overlapping && niche.witness.squared_distance > 0.0) {
     const double size = std::min(a.diameter(), b.diameter());
     const bool is_point = niche.kind == NicheKind::Point;
-    count = findCorners(a, b, pair.solution.a_from_b, niche.witness, kLevelShare * size,
-                        is_point ? kLeastShare * size : 0.0, is_point ? kPairLimitOfPoints : kPairLimitOfSets,
-                        workspace_, corners);
+    const auto find = a.shape() != nullptr || b.shape() != nullptr ? findRoundCorners : findCorners;
+    count = find(a, b, pair.solution.a_from_b, niche.witness, kLevelShare * size,
+                 is_point ? kLeastShare * size : 0.0, is_point ? kPairLimitOfPoints : kPairLimitOfSets,
+                 workspace_, corners);
   }
   const TrackerParameters& parameters = pair.settings.tracker;
   const double bare = std::sqrt(niche.witness.squared_distance);

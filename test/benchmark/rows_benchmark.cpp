@@ -1,7 +1,7 @@
 // Rows of constraints: their gradients beside differences of distances, and what fixed slots are worth to a
 // solver that goes on from its last multipliers.
 //
-//   rows_benchmark gradients [--states 10000] [--distance 0.2]
+//   rows_benchmark gradients [--states 3334] [--distance 0.2]
 //   rows_benchmark slots [--cycles 3000] [--sweeps 1] [--capacity 48] [--clear 0.09]
 //
 // `gradients` writes a line for each of three robots, in random states: rows and entries compared, entries
@@ -11,14 +11,17 @@
 // a velocity damper for every row that keeps it `clear` metres away, with a solver of a few sweeps a cycle
 // that begins with the multipliers of the cycle before: those of the slots, or of the rows in the order of
 // their distance. It writes the largest and the mean jump of the commanded velocity (rad/s, norm) at cycles
-// in which a row begins or ends and at the others, the least distance, and how many rows have left their slot
-// while their niche lived.
+// in which a row begins or ends and at the others, the least distance, how many rows have left their slot
+// while their niche lived, and what making the rows takes.
 #include <CLI/CLI.hpp>
+#include <chrono>
 #include <cstdio>
 #include <map>
 #include <numeric>
 
 #include "benchmark/support/benchmark_main.h"
+#include "benchmark/support/statistics.h"
+#include "benchmark/support/stopwatch.h"
 #include "support/row_differences.h"
 
 namespace concave_distance::benchmark {
@@ -70,13 +73,20 @@ struct Run {
   int others = 0;
   double least_distance = 1e9;
   int moved_rows = 0;
+  std::vector<double> update_us;  ///< of the rows alone, each cycle
+  std::size_t rows = 0;           ///< of all cycles
 
   void print(const char* name) const {
     std::printf(
-        "%-10s changes %d largest %.4f mean %.5f | others %d largest %.4f mean %.5f | least distance %.4f m"
-        " | rows that left their slot %d\n",
+        "%s: cycles with a change %d, largest jump %.4f mean %.5f | others %d, largest %.4f mean %.5f\n",
         name, changes, largest_at_change, sum_at_change / std::max(1, changes), others, largest_else,
-        sum_else / std::max(1, others), least_distance, moved_rows);
+        sum_else / std::max(1, others));
+    std::printf(
+        "  least distance %.4f m, rows that left their slot %d, rows a cycle %.1f, us to make them: median "
+        "%.1f, "
+        "99th percentile %.1f\n",
+        least_distance, moved_rows, static_cast<double>(rows) / static_cast<double>(update_us.size()),
+        median(update_us), percentile(update_us, 0.99));
   }
 };
 
@@ -129,7 +139,9 @@ Run runCell(bool with_slots, int cycles, int sweeps, std::uint32_t capacity, dou
     const double time = cycle * kPeriod;
     joints->evaluate(positions, state);
     tracker.update(state.world_from_body, time);
+    const auto start = std::chrono::steady_clock::now();
     rows.update(tracker.pairs(), state, time);
+    run.update_us.push_back(microsecondsSince(start));
     const std::size_t count = rows.rows().size();
     Eigen::VectorXd bounds = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(count));
     std::vector<Eigen::Index> order(count, -1);
@@ -139,6 +151,7 @@ Run runCell(bool with_slots, int cycles, int sweeps, std::uint32_t capacity, dou
       const ConstraintRow& row = rows.rows()[slot];
       has_changed = has_changed || (row.state == SlotState::Used && row.age == 0);
       if (row.state != SlotState::Used) continue;
+      ++run.rows;
       order[slot] = static_cast<Eigen::Index>(slot);
       bounds[static_cast<Eigen::Index>(slot)] = -kGain * (row.value - clear);
       run.least_distance = std::min(run.least_distance, row.value);
@@ -189,7 +202,7 @@ void compareGradients(int states, double distance) {
 
 int benchmarkMain(int argc, char** argv) {
   CLI::App app("Rows of constraints: gradients, and jumps of commanded velocities");
-  int states = 10'000;
+  int states = 3334;
   double distance = 0.2;
   int cycles = 3000;
   int sweeps = 1;

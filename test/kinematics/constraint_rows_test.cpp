@@ -18,12 +18,12 @@ namespace {
 constexpr double kTilt = 1e-5;
 
 /// A box of 0.2 m that is tilted about x and y, raised and turned above a plate that is on no robot.
-std::string tiltingRobot() {
+std::string tiltingRobot(const std::string& geometry) {
   const auto link = [](const std::string& name, const std::string& content = "") {
     return "<link name='" + name + "'>" + content + "</link>";
   };
   return "<robot name='tilter'>" + link("floor") + link("mast") + link("gimbal") + link("table") +
-         link("cube", "<collision><geometry><box size='0.2 0.2 0.1'/></geometry></collision>") +
+         link("cube", "<collision>" + geometry + "</collision>") +
          test::movingJoint("raise", "prismatic", "floor", "mast", "<axis xyz='0 0 1'/>") +
          test::movingJoint("tilt_x", "revolute", "mast", "gimbal", "<axis xyz='1 0 0'/>") +
          test::movingJoint("tilt_y", "revolute", "gimbal", "table", "<axis xyz='0 1 0'/>") +
@@ -32,8 +32,9 @@ std::string tiltingRobot() {
 
 class ConstraintRowsTest : public test::SceneTest {
  protected:
-  void setUp(const std::string& plate, std::uint32_t capacity = 16) {
-    options.descriptions["robot"] = tiltingRobot();
+  void setUp(const std::string& plate, std::uint32_t capacity = 16,
+             const std::string& geometry = "<geometry><box size='0.2 0.2 0.1'/></geometry>") {
+    options.descriptions["robot"] = tiltingRobot(geometry);
     scene =
         load("robots:\n  - {description: robot}\nbodies:\n  - {name: plate, frame: world, " + plate + "}\n");
     joints = std::make_shared<const SceneKinematics>(scene);
@@ -110,6 +111,56 @@ TEST_F(ConstraintRowsTest, GivesTheCornersOfFacesThatAreNearlyParallel) {
       ASSERT_LT((found - corner.gradient).cwiseAbs().maxCoeff(), 1e-11) << found << "\n" << corner.gradient;
     }
     ASSERT_EQ(seen.size(), 4U);
+  }
+}
+
+TEST_F(ConstraintRowsTest, GivesTheEndsOfACylinderThatLiesNearlyLevel) {
+  setUp(kPlate, 16,
+        "<origin rpy='1.5707963267948966 0 0'/><geometry><cylinder radius='0.05' length='0.2'/></geometry>");
+  std::mt19937 engine(2);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  for (int trial = 0; trial < 200; ++trial) {
+    const Eigen::Vector4d at(0.2 + 0.1 * unit(engine), 5.0 * kTilt * unit(engine), 2.0 * unit(engine), 0.0);
+    cycle(at[0], at[1], at[2], at[3]);
+    ASSERT_EQ(used().size(), 2U) << at.transpose();
+    for (const std::size_t slot : used()) {
+      const ConstraintRow& row = rows->rows()[slot];
+      const bool is_a = row.pair->body_a->name == "cube";
+      const Eigen::Vector3d& on_cylinder = is_a ? row.point_a_in_frame : row.point_b_in_frame;
+      ASSERT_NEAR(std::abs(on_cylinder.y()), 0.1, 1e-12);
+      // The end of the axis is at y, and the side hangs 0.05 below it, across the tilted axis.
+      const double y = on_cylinder.y();
+      const double cosine = std::cos(at[1]);
+      ASSERT_NEAR(row.value, at[0] + std::sin(at[1]) * y - 0.05 * cosine, 1e-13);
+      const Eigen::RowVector4d found = rows->jacobian().row(static_cast<Eigen::Index>(slot));
+      const Eigen::RowVector4d expected(1.0, cosine * y + 0.05 * std::sin(at[1]), 0.0,
+                                        -cosine * std::sin(at[2]));
+      ASSERT_LT((found - expected).cwiseAbs().maxCoeff(), 1e-11) << found << "\n" << expected;
+    }
+  }
+}
+
+TEST_F(ConstraintRowsTest, GivesTheRimOfACylinderThatStandsNearlyUpright) {
+  setUp(kPlate, 16, "<geometry><cylinder radius='0.1' length='0.1'/></geometry>");
+  std::mt19937 engine(3);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  for (int trial = 0; trial < 200; ++trial) {
+    const double size = trial == 0 ? 0.0 : 3.0 * kTilt;
+    const Eigen::Vector4d at(0.2 + 0.1 * unit(engine), size * unit(engine), size * unit(engine),
+                             0.2 * unit(engine));
+    cycle(at[0], at[1], at[2], at[3]);
+    ASSERT_GE(used().size(), 3U) << at.transpose();
+    ASSERT_LE(used().size(), 9U) << "eight corners and the closest points, which lie between two of them";
+    for (const std::size_t slot : used()) {
+      const ConstraintRow& row = rows->rows()[slot];
+      const Eigen::Vector3d& in_cube =
+          row.pair->body_a->name == "cube" ? row.point_a_in_frame : row.point_b_in_frame;
+      ASSERT_LE(in_cube.head<2>().norm(), 0.1 + 1e-12);
+      const Corner corner = cornerAt(at, in_cube.x(), in_cube.y());
+      ASSERT_NEAR(row.value, corner.height, 1e-13);
+      const Eigen::RowVector4d found = rows->jacobian().row(static_cast<Eigen::Index>(slot));
+      ASSERT_LT((found - corner.gradient).cwiseAbs().maxCoeff(), 1e-11) << found << "\n" << corner.gradient;
+    }
   }
 }
 

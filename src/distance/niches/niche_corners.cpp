@@ -30,7 +30,8 @@ void keepLargest(std::vector<Vector2d>& hull, double same) {
       const Vector2d& before = hull[(i + hull.size() - 1) % hull.size()];
       const Vector2d& after = hull[(i + 1) % hull.size()];
       const double area = std::abs(crossed(hull[i] - before, after - before));
-      is_on_line = area <= same * (after - before).norm();
+      const bool is_between = (hull[i] - before).dot(after - hull[i]) > 0.0;
+      is_on_line = is_between && area <= same * (after - before).norm();
       if (area >= least_area && !is_on_line) continue;
       least_area = area;
       least = i;
@@ -135,8 +136,7 @@ class PlaceSearch {
 
 std::size_t findCorners(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b,
                         const WitnessPair& witness, double tolerance, double least_length,
-                        std::size_t pair_limit, CornerWorkspace& workspace,
-                        std::array<CornerPair, kMostCorners>& corners) {
+                        std::size_t pair_limit, CornerWorkspace& workspace, CornerPairs& corners) {
   const NicheExtent extent =
       measureExtent(a, b, a_from_b, witness, tolerance, pair_limit, workspace.extent, nullptr);
   if (extent.kind == NicheKind::Point || extent.cut || extent.length < least_length) return 0;

@@ -18,6 +18,8 @@ struct CornerPair {
 };
 
 inline constexpr std::size_t kMostCorners = 8;
+/// One more than the corners: the closest points of a round solid, which lie between two of them.
+using CornerPairs = std::array<CornerPair, kMostCorners + 1>;
 
 /// Buffers of one thread; cleared, never freed.
 struct CornerWorkspace {
@@ -35,7 +37,6 @@ struct CornerWorkspace {
 /// @return how many were found; 0 for a set that is a point, touches or has more triangle pairs than that
 std::size_t findCorners(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b,
                         const WitnessPair& witness, double tolerance, double least_length,
-                        std::size_t pair_limit, CornerWorkspace& workspace,
-                        std::array<CornerPair, kMostCorners>& corners);
+                        std::size_t pair_limit, CornerWorkspace& workspace, CornerPairs& corners);
 
 }  // namespace concave_distance
