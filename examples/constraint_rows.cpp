@@ -36,8 +36,7 @@ int main(int argc, char** argv) try {
     joints->evaluate(positions, state);
     tracker.update(state.world_from_body, 0.01 * step);
     rows.update(tracker.pairs(), state, 0.01 * step);
-    // The velocities nearest to the wanted ones with, for each row: row * velocities >= drift - 2 (value -
-    // 0.03).
+    // The velocities nearest to the wanted ones that obey gradient * velocities >= bound in every row.
     Eigen::VectorXd velocities = wanted + rows.jacobian().transpose() * multipliers;
     for (int i = 0; i < 50 * 64; ++i) {
       const ConstraintRow& row = rows.rows()[i % 64];

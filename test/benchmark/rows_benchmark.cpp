@@ -126,7 +126,7 @@ Run runCell(bool with_slots, int cycles, int sweeps, std::uint32_t capacity, dou
   SceneTracker tracker;
   tracker.setScene(scene);
   ConstraintSettings settings;
-  settings.distance = 0.1;
+  settings.distance = 0.25;  // the cutoff of the cell
   settings.capacity = capacity;
   ConstraintRows rows(joints, settings);
   SceneState state = joints->startState();
