@@ -10,12 +10,14 @@
 #include "concave_distance/loading/load_scene.h"
 #include "distance/kernels/pair_frame.h"
 #include "distance/kernels/triangle_distance.h"
+#include "support/corner_distance.h"
 #include "support/robots.h"
 
 namespace concave_distance::test {
 
-/// Compares rows with differences of distances, each computed from the two triangles that the niche's points
-/// are on and from nothing else of the rows: near a local minimum their distance is the niche's.
+/// Compares rows with differences of distances. Each is computed from the two triangles that the niche's
+/// points are on, and from nothing else of the rows: near a local minimum their distance is the niche's; for
+/// corners of what is level, by brute force (CornerDistance).
 class RowDifferences {
  public:
   static constexpr double kLeastDistance = 1e-3;  // metres; below it rounding is too much of a difference
@@ -24,11 +26,14 @@ class RowDifferences {
   /// m/rad: the rounding of distances, some 1e-11 of the difference, is more than 1e-6 of smaller ones.
   static constexpr double kLeastLargest = 1e-4;
 
-  std::size_t rows = 0;       ///< compared
+  static constexpr std::size_t kCornerShare = 8;  ///< of the rows of corners, one in this is compared
+
+  std::size_t rows = 0;       ///< of closest points, compared
   std::size_t entries = 0;    ///< compared, of rows
   std::size_t one_sided = 0;  ///< of these: the features change within a step, so one side counts
   std::size_t unclear = 0;    ///< entries not compared: the features change on both sides
-  std::size_t corners = 0;    ///< rows not compared: of corners, see ConstraintRows tests
+  std::size_t corners = 0;    ///< rows of corners compared, one in kCornerShare
+  std::size_t unknown = 0;    ///< rows of corners not compared: on no vertex and no two edges
   std::size_t near = 0;       ///< rows not compared: nearer than kLeastDistance
   double worst = 0.0;         ///< of all differences, as a share of the row's largest entry
 
@@ -40,36 +45,55 @@ class RowDifferences {
       const auto& niches = row.pair->solution.niches;
       const auto niche = std::find_if(niches.begin(), niches.end(),
                                       [&](const TrackedNiche& other) { return other.id == row.niche_id; });
+      const Eigen::RowVectorXd gradient = all.jacobian().row(static_cast<Eigen::Index>(slot));
       if (row.is_overlapping || row.value < kLeastDistance) {
         ++near;
       } else if (niche->kind != NicheKind::Point || std::abs(row.value - niche->distance) > 1e-12) {
-        ++corners;
+        if (seen_corners_++ % kCornerShare == 0) addCorner(row, joints, positions, gradient, scratch);
       } else {
-        compare(row.pair, niche->witness, joints, positions,
-                all.jacobian().row(static_cast<Eigen::Index>(slot)), scratch);
+        const WitnessPair& witness = niche->witness;
+        const auto measure = [&](const Eigen::Isometry3d& a_from_b) {
+          return ofTriangles(*row.pair->body_a->mesh, *row.pair->body_b->mesh, witness, a_from_b);
+        };
+        compare(row.pair, measure, joints, positions, gradient, scratch);
         ++rows;
       }
     }
   }
 
  private:
-  struct Measure {
-    double distance;
-    Feature feature_a;
-    Feature feature_b;
-  };
+  using Measure = CornerDistance::Measure;
 
-  static Measure measure(const std::shared_ptr<const TrackedPair>& pair, const WitnessPair& witness,
-                         const SceneKinematics& joints, const Eigen::VectorXd& positions,
-                         SceneState& scratch) {
-    joints.evaluate(positions, scratch);
-    const Eigen::Isometry3d a_from_b = scratch.world_from_body[pair->origin->body_a]->inverse() *
-                                       *scratch.world_from_body[pair->origin->body_b];
-    const detail::PairFrame frame(*pair->body_a->mesh, *pair->body_b->mesh, a_from_b, witness.triangle_a,
-                                  witness.triangle_b);
+  static Measure ofTriangles(const BodyMesh& a, const BodyMesh& b, const WitnessPair& witness,
+                             const Eigen::Isometry3d& a_from_b) {
+    const detail::PairFrame frame(a, b, a_from_b, witness.triangle_a, witness.triangle_b);
     const TrianglePairDistance found =
         triangleDistance(frame.cornersOfA(witness.triangle_a), frame.cornersOfB(witness.triangle_b));
     return {std::sqrt(found.squared_distance), found.feature_a, found.feature_b};
+  }
+
+  static Eigen::Isometry3d relativePose(const TrackedPair& pair, const SceneKinematics& joints,
+                                        const Eigen::VectorXd& positions, SceneState& scratch) {
+    joints.evaluate(positions, scratch);
+    return scratch.world_from_body[pair.origin->body_a]->inverse() *
+           *scratch.world_from_body[pair.origin->body_b];
+  }
+
+  void addCorner(const ConstraintRow& row, const SceneKinematics& joints, const Eigen::VectorXd& positions,
+                 const Eigen::RowVectorXd& gradient, SceneState& scratch) {
+    const std::size_t a = row.pair->origin->body_a;
+    const std::size_t b = row.pair->origin->body_b;
+    const auto corner = CornerDistance::find(*row.pair->body_a->mesh, *row.pair->body_b->mesh,
+                                             joints.frameFromBody(a).inverse() * row.point_a_in_frame,
+                                             joints.frameFromBody(b).inverse() * row.point_b_in_frame,
+                                             relativePose(*row.pair, joints, positions, scratch), row.value);
+    if (!corner) {
+      ++unknown;
+      return;
+    }
+    ++corners;
+    const auto measure = [&](const Eigen::Isometry3d& a_from_b) { return corner->at(a_from_b); };
+    compare(row.pair, measure, joints, positions, gradient, scratch);
   }
 
   enum class Found { Nothing, OneSided, TwoSided };
@@ -110,11 +134,12 @@ class RowDifferences {
     return Found::Nothing;
   }
 
-  void compare(const std::shared_ptr<const TrackedPair>& pair, const WitnessPair& witness,
+  template <typename MeasureAt>
+  void compare(const std::shared_ptr<const TrackedPair>& pair, const MeasureAt& measure,
                const SceneKinematics& joints, const Eigen::VectorXd& positions, const Eigen::RowVectorXd& row,
                SceneState& scratch) {
     const double largest = std::max(row.cwiseAbs().maxCoeff(), kLeastLargest);
-    const Measure here = measure(pair, witness, joints, positions, scratch);
+    const Measure here = measure(relativePose(*pair, joints, positions, scratch));
     const auto at = [&](Eigen::Index velocity, double step) {
       std::size_t robot = 0;
       const auto index = static_cast<std::size_t>(velocity);
@@ -124,7 +149,7 @@ class RowDifferences {
       Eigen::VectorXd moved = positions;
       moved.segment(first, count) = stepped(*joints.robots()[robot], positions.segment(first, count),
                                             index - joints.firstVelocity(robot), step);
-      return measure(pair, witness, joints, moved, scratch);
+      return measure(relativePose(*pair, joints, moved, scratch));
     };
     for (Eigen::Index i = 0; i < row.size(); ++i) {
       double slope = 0.0;
@@ -137,6 +162,8 @@ class RowDifferences {
       worst = std::max(worst, std::abs(slope - row[i]) / largest);
     }
   }
+
+  std::size_t seen_corners_ = 0;
 };
 
 /// A scene of a robot and what is around it, at random states.
