@@ -23,8 +23,8 @@ class RowDifferences {
   static constexpr double kLeastDistance = 1e-3;  // metres; below it rounding is too much of a difference
 
   /// A row of two bodies that hardly move against each other is compared as if its largest entry were this,
-  /// m/rad: the rounding of distances, some 1e-11 of the difference, is more than 1e-6 of smaller ones.
-  static constexpr double kLeastLargest = 1e-4;
+  /// m/rad: the kernel's error of 7e-15 m over a step of 1e-3 of a distance of mm is more than 1e-9.
+  static constexpr double kLeastLargest = 1e-3;
 
   static constexpr std::size_t kCornerShare = 8;  ///< of the rows of corners, one in this is compared
 
