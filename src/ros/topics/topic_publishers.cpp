@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "alerts.h"
+#include "concave_distance/base/error.h"
 #include "nearest.h"
 #include "ros/markers/scene_markers.h"
 #include "ros/messages/contact_conversions.h"
@@ -86,8 +87,13 @@ std_msgs::Header commonHeader(const std::vector<Message>& messages, ros::Time no
 
 }  // namespace
 
+std::shared_ptr<const SceneKinematics> jointsOf(const ServedScene& served) {
+  return served.joints.get([&] { return std::make_shared<const SceneKinematics>(*served.scene); });
+}
+
 TopicPublishers::TopicPublishers(const ros::NodeHandle& node, std::string reference_frame,
-                                 std::optional<std::vector<std::string>> pair_topics)
+                                 std::optional<std::vector<std::string>> pair_topics,
+                                 const ConstraintOptions& constraints)
     : node_(node),
       reference_frame_(std::move(reference_frame)),
       pair_topics_(node_, std::move(pair_topics)),
@@ -100,6 +106,7 @@ TopicPublishers::TopicPublishers(const ros::NodeHandle& node, std::string refere
       markers_(WatchedTopic::advertise<visualization_msgs::MarkerArray>(node_, "markers", kQueueLength)),
       alerts_(WatchedTopic::advertise<Alert>(node_, "alerts", kAlertQueueLength,
                                              [this] { repeat_alerts_ = true; })),
+      constraints_(node_, reference_frame_, constraints),
       drawing_(std::make_unique<SceneMarkers>()) {}
 
 TopicPublishers::~TopicPublishers() = default;
@@ -121,6 +128,17 @@ std::shared_ptr<const ServedScene> TopicPublishers::serve(Scene scene, const Ser
   return served;
 }
 
+void TopicPublishers::takeJoints(const ServedScene& served) {
+  std::shared_ptr<const SceneKinematics> joints;
+  std::string problem;
+  try {
+    joints = jointsOf(served);
+  } catch (const Error& error) {
+    problem = error.what();
+  }
+  constraints_.setScene(std::move(joints), problem);
+}
+
 void TopicPublishers::readDemand(const ServedScene& served, const MarkerOptions& markers) {
   nearest_wanted_ = nearest_.isWatched() || nearest_distance_.isWatched();
   distances_wanted_ = distances_.isWatched();
@@ -131,6 +149,8 @@ void TopicPublishers::readDemand(const ServedScene& served, const MarkerOptions&
   own_wanted_ = std::any_of(served.topics.begin(), served.topics.end(), [](const auto& own) {
     return own && (own->distance.isWatched() || own->niches.isWatched() || own->contacts.isWatched());
   });
+  constraints_.readDemand();
+  if (constraints_.isWanted()) takeJoints(served);
   const bool markers_watched = markers_.isWatched();
   if (!markers_watched) {
     drawing_->forget();
@@ -156,17 +176,19 @@ PairDemand TopicPublishers::demandOf(const ServedScene& served, std::size_t plac
   pair.due = nearest_wanted_ || distances_wanted_ || niches_wanted_ || alert || own_niches || contacts ||
              own.distance.isWatched() || groups_.wants(served.groups, tracked) ||
              (markers_wanted_ && are_markers_due_);
+  const bool rows = constraints_.concerns(tracked);
+  pair.due = pair.due || rows;
   pair.watched = pair.due || markers_wanted_;
   pair.effects = contacts || (contact_markers_wanted_ && settings.effects.any());
   // A contact's id is its niche's.
-  pair.niches = niches_wanted_ || own_niches || pair.effects ||
+  pair.niches = niches_wanted_ || own_niches || rows || pair.effects ||
                 (markers_wanted_ && drawing_->demand().wantsNiches(tracked.origin->name));
   return pair;
 }
 
 bool TopicPublishers::isIdle() const {
   return !nearest_wanted_ && !distances_wanted_ && !niches_wanted_ && !contacts_wanted_ && !alerts_wanted_ &&
-         groups_.isIdle() && !own_wanted_ && !markers_wanted_ && !markers_due_;
+         groups_.isIdle() && !own_wanted_ && !markers_wanted_ && !markers_due_ && !constraints_.isWanted();
 }
 
 PublishReport TopicPublishers::publish(const ServedScene& served, const PublishedPairs& pairs,

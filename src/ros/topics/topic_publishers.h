@@ -11,7 +11,10 @@
 #include <string>
 #include <vector>
 
+#include "base/made_once.h"
+#include "concave_distance/kinematics/scene_kinematics.h"
 #include "concave_distance/scene/scene.h"
+#include "constraint_topic.h"
 #include "group_topics.h"
 #include "pair_topics.h"
 #include "ros/markers/marker_style.h"
@@ -31,7 +34,11 @@ struct ServedScene {
   MarkerStyle marker_style;             ///< as configured
   std::uint64_t settings_revision = 0;  ///< another one: the settings of pairs that were there have changed
   std::uint64_t revision = 0;           ///< another one: another scene
+  MadeOnce<std::shared_ptr<const SceneKinematics>> joints;  ///< see jointsOf()
 };
+
+/// The joints of its robots, made when they are first asked for. @throws Error as SceneKinematics
+std::shared_ptr<const SceneKinematics> jointsOf(const ServedScene& served);
 
 /// Counts what was built and sent in one cycle.
 struct PublishReport {
@@ -53,7 +60,8 @@ class TopicPublishers {
  public:
   /// @param pair_topics patterns of the pairs with their own topics, see PairTopicKeeper
   TopicPublishers(const ros::NodeHandle& node, std::string reference_frame,
-                  std::optional<std::vector<std::string>> pair_topics);
+                  std::optional<std::vector<std::string>> pair_topics,
+                  const ConstraintOptions& constraints = {});
   ~TopicPublishers();
 
   /// Advertises the topics of pairs that have none yet; those of pairs that are gone end with the last
@@ -77,10 +85,16 @@ class TopicPublishers {
   PublishReport publish(const ServedScene& served, const PublishedPairs& pairs, const OtherPairs& others,
                         double marker_lifetime, ros::Time now);
 
+  /// Publishes the rows of constraints, where they are wanted.
+  void publishConstraints(const ConstraintInput& input, ros::Time now) { constraints_.publish(input, now); }
+  /// The clock has jumped back: rows begin anew.
+  void restart() { constraints_.reset(); }
+
   /// The alerts of pairs that left the scene (DistanceCycle::takeRetired).
   void publishRetired(const PublishedPairs& pairs);
 
  private:
+  void takeJoints(const ServedScene& served);
   void publishAlerts(const PublishedPairs& pairs);
   /// @return how many markers
   std::size_t publishMarkers(const ServedScene& served, const PublishedPairs& pairs, double lifetime,
@@ -101,6 +115,7 @@ class TopicPublishers {
   WatchedTopic contacts_;
   WatchedTopic markers_;
   WatchedTopic alerts_;
+  ConstraintTopic constraints_;
   std::atomic<bool> repeat_alerts_{false};  ///< somebody has subscribed to the alerts
   // readDemand found these for this cycle.
   bool nearest_wanted_ = false;
