@@ -1,8 +1,10 @@
 #include "body_spec_reader.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 
+#include "base/ascii.h"
 #include "base/constants.h"
 #include "base/number_text.h"
 #include "frame_name.h"
@@ -13,7 +15,8 @@
 namespace concave_distance::detail {
 namespace {
 
-// A quaternion is normalised when its norm is this near to 1, else refused (as for distance_query).
+// Entries of a rotation times its transpose are this near to those of the identity, else it is refused.
+constexpr double kRotationTolerance = 1e-9;
 
 constexpr std::pair<const char*, GeometrySource> kGeometrySources[] = {
     {"collision", GeometrySource::Collision}, {"visual", GeometrySource::Visual}};
@@ -46,6 +49,16 @@ Eigen::Quaterniond fromRollPitchYaw(const Eigen::Vector3d& rpy) {
          Eigen::AngleAxisd(rpy.x(), Eigen::Vector3d::UnitX());
 }
 
+// Row by row; taken as it is, so that no digit of a saved pose is lost.
+Eigen::Matrix3d readRotation(const YamlValue& value) {
+  const char* allowed = "nine numbers row by row: a rotation without mirroring";
+  const std::vector<double> v = value.numbers(9, allowed);
+  const Eigen::Matrix3d rotation = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(v.data());
+  const double error = (rotation * rotation.transpose() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
+  if (!(error <= kRotationTolerance) || !(rotation.determinant() > 0.0)) value.refuse(allowed);
+  return rotation;
+}
+
 Eigen::Vector4d readColour(const YamlValue& value) {
   const char* allowed = "three or four numbers from 0 to 1: red, green, blue, opacity";
   if (!value.isList()) value.refuse(allowed);
@@ -64,7 +77,7 @@ double readMargin(const YamlValue& value) {
                       [](double margin) { return margin >= 0.0 && std::isfinite(margin); });
 }
 
-void readPrimitive(const Primitive& primitive, const YamlValue& value, BodyDescription& body) {
+void readPrimitive(const Primitive& primitive, const YamlValue& value, BodyShape& body) {
   YamlMap map(value, "a map of dimensions");
   body.primitive = primitive.name;
   for (const auto& [key, count] : primitive.sizes) {
@@ -94,7 +107,12 @@ void readOverDefaults(YamlMap& map, const BodyDefaults& defaults, std::optional<
   if (auto v = map.take("material")) material = readMaterial(*v, defaults.materials);
 }
 
-void readGeometry(YamlMap& map, BodyDescription& body) {
+Eigen::Vector3d readScaleOf(const YamlValue& value, const BodyShape& shape) {
+  if (shape.mesh_resource.empty()) value.fail("a primitive has no scale", "give its dimensions instead");
+  return readScale(value);
+}
+
+void readGeometry(YamlMap& map, BodyShape& body) {
   std::optional<YamlValue> given = map.take("mesh");
   if (given) body.mesh_resource = given->text();
   const std::string remedy = "give one of mesh, " + primitiveNames();
@@ -106,12 +124,98 @@ void readGeometry(YamlMap& map, BodyDescription& body) {
     readPrimitive(primitive, *value, body);
   }
   if (!given) map.value().fail("no geometry", remedy);
+  if (auto v = map.take("scale")) body.scale = readScaleOf(*v, body);
+  if (auto v = map.take("pose")) body.frame_from_geometry = readPose(*v);
+}
+
+// One shape in the body's own map, or several in a list.
+void readShapes(YamlMap& map, BodyDescription& body) {
+  const std::optional<YamlValue> list = map.take("shapes");
+  if (!list) {
+    readGeometry(map, body);
+    return;
+  }
+  std::vector<BodyShape> shapes;
+  for (const YamlValue& value : list->list("a list of shapes")) {
+    YamlMap shape(value, "a map with a geometry, its scale and its pose");
+    readGeometry(shape, shapes.emplace_back());
+    shape.finish();
+  }
+  if (shapes.empty()) list->refuse("a list of at least one shape");
+  static_cast<BodyShape&>(body) = shapes.front();
+  body.other_shapes.assign(shapes.begin() + 1, shapes.end());
+}
+
+std::vector<Selector> readSelectors(const YamlValue& value) {
+  std::vector<Selector> selectors;
+  for (const YamlValue& item : value.list("a list of bodies, groups and patterns")) {
+    selectors.push_back({item.where(), item.text()});
+  }
+  return selectors;
+}
+
+AttachmentSpec readAttachment(const YamlValue& value) {
+  YamlMap map(value, "a map with `to` and touch_links");
+  AttachmentSpec attachment;
+  const YamlValue parent = map.require("to", "name the body, link or frame that it is attached to");
+  attachment.parent = {parent.where(), parent.text()};
+  if (auto v = map.take("touch_links")) attachment.may_touch = readSelectors(*v);
+  if (auto v = map.take("switched_off")) {
+    for (const YamlValue& pair : v->list("a list of names of pairs")) {
+      attachment.switched_off.push_back(pair.text());
+    }
+  }
+  map.finish();
+  return attachment;
+}
+
+AddedSpec readAdded(const YamlValue& value) {
+  YamlMap map(value, "a map with all_but or only");
+  AddedSpec added;
+  const std::optional<YamlValue> all_but = map.take("all_but");
+  const std::optional<YamlValue> only = map.take("only");
+  if (all_but.has_value() == only.has_value()) {
+    value.fail(all_but ? "both 'all_but' and 'only' are given" : "neither 'all_but' nor 'only' is given",
+               "give one of them");
+  }
+  added.all = all_but.has_value();
+  added.bodies = readSelectors(all_but ? *all_but : *only);
+  map.finish();
+  return added;
+}
+
+std::string readLabel(const YamlValue& value) {
+  std::string label = value.text();
+  requirePairName(value, label);
+  return label;
+}
+
+std::map<std::string, LinkSpec> readLinks(const YamlValue& value) {
+  std::map<std::string, LinkSpec> links;
+  const YamlMap names(value, "a map from a link's name to its margin and label");
+  for (const auto& [name, said] : names.entries()) {
+    YamlMap map(said, "a map with margin and label");
+    LinkSpec& link = links[name];
+    link.where = said.where();
+    if (auto v = map.take("margin")) link.margin = readMargin(*v);
+    if (auto v = map.take("label")) link.label = readLabel(*v);
+    map.finish();
+  }
+  return links;
 }
 
 }  // namespace
 
+void requirePairName(const YamlValue& value, const std::string& name) {
+  const auto allowed = [](char c) { return isLetterOrDigit(c) || c == '_' || c == '/'; };
+  if (!std::all_of(name.begin(), name.end(), allowed) || name.front() == '/' || name.back() == '/' ||
+      name.find("//") != std::string::npos) {
+    value.refuse("letters, digits, _ and single / in between");
+  }
+}
+
 Eigen::Isometry3d readPose(const YamlValue& value) {
-  YamlMap map(value, "a map with xyz and rpy or quaternion");
+  YamlMap map(value, "a map with xyz and rpy, quaternion or rotation");
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   if (auto v = map.take("xyz")) {
     pose.translation() = v->vector3("three numbers, metres");
@@ -119,16 +223,22 @@ Eigen::Isometry3d readPose(const YamlValue& value) {
   }
   const std::optional<YamlValue> rpy = map.take("rpy");
   const std::optional<YamlValue> quaternion = map.take("quaternion");
+  const std::optional<YamlValue> rotation = map.take("rotation");
   if (rpy && quaternion) quaternion->fail("both 'rpy' and 'quaternion' are given", "give one of them");
+  if (rotation && (rpy || quaternion)) {
+    rotation->fail(std::string("both 'rotation' and '") + (rpy ? "rpy" : "quaternion") + "' are given",
+                   "give one of them");
+  }
+  if (rotation) pose.linear() = readRotation(*rotation);
   if (rpy) pose.linear() = fromRollPitchYaw(rpy->vector3("three angles, radians")).toRotationMatrix();
   if (quaternion) {
     const char* allowed = "four numbers x, y, z, w of norm 1";
     const std::vector<double> q = quaternion->numbers(4, allowed);
-    const Eigen::Quaterniond rotation(q[3], q[0], q[1], q[2]);
-    if (!(std::abs(rotation.norm() - 1.0) <= kUnitTolerance)) {
-      quaternion->fail("the norm is " + numberText(rotation.norm()), std::string("allowed: ") + allowed);
+    const Eigen::Quaterniond turn(q[3], q[0], q[1], q[2]);
+    if (!(std::abs(turn.norm() - 1.0) <= kUnitTolerance)) {
+      quaternion->fail("the norm is " + numberText(turn.norm()), std::string("allowed: ") + allowed);
     }
-    pose.linear() = rotation.normalized().toRotationMatrix();
+    pose.linear() = turn.normalized().toRotationMatrix();
   }
   map.finish();
   return pose;
@@ -160,9 +270,11 @@ RobotSpec readRobotSpec(const YamlValue& value, const BodyDefaults& defaults) {
   if (auto v = map.take("skip_links")) {
     for (const YamlValue& link : v->list("a list of links and patterns")) {
       robot.skipped_links.push_back({link.where(), link.text()});
+      robot.skip_links.push_back(link.text());
     }
   }
   if (auto v = map.take("margin")) robot.margin = readMargin(*v);
+  if (auto v = map.take("links")) robot.own = readLinks(*v);
   readOverDefaults(map, defaults, robot.max_edge_length, robot.chord_error, robot.material);
   map.finish();
   return robot;
@@ -182,12 +294,12 @@ BodySpec readBodySpec(const YamlValue& value, const BodyDefaults& defaults) {
   } else if (const std::string problem = tfFrameProblem(description.name); !problem.empty()) {
     name.fail("it cannot also be the name of its frame: " + problem, "give a 'frame' or another name");
   }
-  readGeometry(map, description);
-  if (auto v = map.take("scale")) {
-    if (description.mesh_resource.empty()) v->fail("a primitive has no scale", "give its dimensions instead");
-    description.scale = readScale(*v);
-  }
-  if (auto v = map.take("pose")) description.frame_from_geometry = readPose(*v);
+  readShapes(map, description);
+  if (auto v = map.take("placed")) body.frame_from_body = readPose(*v);
+  if (auto v = map.take("moved")) body.is_moved = v->boolean();
+  if (auto v = map.take("attached")) body.attached = readAttachment(*v);
+  if (auto v = map.take("added")) body.added = readAdded(*v);
+  if (auto v = map.take("label")) body.label = readLabel(*v);
   if (auto v = map.take("colour")) body.colour = readColour(*v);
   if (auto v = map.take("margin")) body.margin = readMargin(*v);
   readOverDefaults(map, defaults, description.max_edge_length, description.chord_error, body.material);

@@ -191,6 +191,7 @@ void reportOverlappingPairs(Scene& scene, const RobotDescription& robot, const S
     const SceneBody& a = scene.bodies[all[pair].body_a];
     const SceneBody& b = scene.bodies[all[pair].body_b];
     filtered.emplace_back(std::minmax(a.serial, b.serial));
+    scene.overlapping.push_back(filtered.back());
   }
   std::sort(filtered.begin(), filtered.end());
   scene.rules.filtered = std::make_shared<const decltype(filtered)>(std::move(filtered));

@@ -36,6 +36,7 @@ struct SceneParts {
   std::vector<std::string> warnings;
   /// The robots in their zero poses: poses of links in the root's frame, by body name.
   std::vector<std::unordered_map<std::string, Eigen::Isometry3d>> robots_at_rest;
+  std::vector<SceneRobot> robots;      ///< that could be read
   std::vector<SceneProblem> problems;  ///< URDFs and SRDFs that cannot be read
   bool robot_failed = false;           ///< a name that nobody knows may be one of its links
 
