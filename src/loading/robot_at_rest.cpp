@@ -77,7 +77,7 @@ std::vector<std::size_t> pairsThatAlwaysOverlap(const Scene& scene, const PairLi
   }
   RandomEngine engine(kSeed);
   for (std::size_t pose = 0; pose <= kRandomPoses && !left.empty(); ++pose) {
-    if (progress != nullptr && progress->stop) return {};
+    if (progress != nullptr && progress->isStopped()) return {};
     const Poses poses = linkPoses(robot, pose == 0 ? zeroPositions(robot) : randomPositions(robot, engine));
     std::vector<char> overlaps(left.size(), 0);
     tbb::parallel_for(std::size_t{0}, left.size(), [&](std::size_t i) {

@@ -31,6 +31,8 @@ class LoadProgress {
 
   /// When set, bodies not begun are left out and the result is not usable.
   std::atomic<bool> stop{false};
+  const std::atomic<bool>* stopped_with = nullptr;  ///< the same, of somebody else; nullptr: nobody
+  bool isStopped() const { return stop || (stopped_with != nullptr && *stopped_with); }
 
  private:
   std::atomic<std::size_t> bodies_{0};

@@ -169,18 +169,20 @@ void DistanceServer::followLoading() {
     adoptCutoff(*outcome->scene->automatic_cutoff);
     config_of_loading_.cutoff = config_.cutoff;
   }
-  if (concernsPairs(config_of_loading_, config_)) {
-    for (std::size_t i = 0; i < outcome->scene->pairs.size(); ++i) {
-      applyChanges(config_of_loading_, config_, outcome->scene->pairs.edit(i).settings);
-    }
-    for (PairSettings& settings : outcome->scene->rules.settings) {
-      applyChanges(config_of_loading_, config_, settings);
-    }
-    applyChanges(config_of_loading_, config_, outcome->scene->defaults.pairs);
-  }
+  applyReconfigured(*outcome->scene);
   descriptions_.remember(loader_.request());
   keeper_.replace(std::move(*outcome->scene));
   keeper_.setWaitingFor("");
+}
+
+// What was reconfigured since the parameters were read. The caller holds the mutex of the settings.
+void DistanceServer::applyReconfigured(Scene& scene) {
+  if (!concernsPairs(config_of_loading_, config_)) return;
+  for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
+    applyChanges(config_of_loading_, config_, scene.pairs.edit(i).settings);
+  }
+  for (PairSettings& settings : scene.rules.settings) applyChanges(config_of_loading_, config_, settings);
+  applyChanges(config_of_loading_, config_, scene.defaults.pairs);
 }
 
 Scene DistanceServer::loadAgain(const std::shared_ptr<BodyPool>& pool) {
@@ -188,9 +190,12 @@ Scene DistanceServer::loadAgain(const std::shared_ptr<BodyPool>& pool) {
   if (!reload_request_.waiting_for.empty())
     throw Error("reload", reload_request_.waiting_for, "set it and call again; nothing was changed");
   LoadProgress progress;
+  progress.stopped_with = &service_queues_.gate().stopped();
   std::optional<Scene> scene;
   // On this thread alone: a worker that reads meshes would be missing in the cycle.
   tbb::task_arena(1).execute([&] { scene = loadScene(parameters_, reload_request_, progress, pool); });
+  const boost::recursive_mutex::scoped_lock lock(reconfigure_mutex_);
+  applyReconfigured(*scene);
   return std::move(*scene);
 }
 
@@ -199,6 +204,7 @@ void DistanceServer::onReloaded(const Scene& loaded) {
   if (!loaded.automatic_cutoff || !cutoff_is_automatic_) return;
   const boost::recursive_mutex::scoped_lock lock(reconfigure_mutex_);
   adoptCutoff(*loaded.automatic_cutoff);
+  config_of_loading_.cutoff = config_.cutoff;
 }
 
 void DistanceServer::reportChangedDescription() {

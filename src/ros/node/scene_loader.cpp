@@ -102,7 +102,7 @@ Scene loadScene(const NodeParameters& parameters, const SceneRequest& request, L
   options.limits = {parameters.limits.largest_body_count, parameters.limits.largest_pair_count,
                     parameters.limits.largest_triangle_count, parameters.limits.largest_node_count};
   options.mesh_import = parameters.mesh_access.limits;
-  options.mesh_import.stop = &progress.stop;
+  options.mesh_import.stop = progress.stopped_with != nullptr ? progress.stopped_with : &progress.stop;
   options.descriptions = request.descriptions;
   options.progress = &progress;
   options.pool = pool;
