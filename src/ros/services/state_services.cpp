@@ -72,9 +72,8 @@ void StateServices::requireNoNewProblem(const Scene& fresh, const Scene& now,
                                         Reload::Response& response) const {
   const auto is_known = [&](const SceneProblem& problem) {
     // The line of a file at which it stands may have changed.
-    return std::any_of(now.problems.begin(), now.problems.end(), [&](const SceneProblem& known) {
-      return known.message == problem.message;
-    });
+    return std::any_of(now.problems.begin(), now.problems.end(),
+                       [&](const SceneProblem& known) { return known.message == problem.message; });
   };
   for (const SceneProblem& problem : fresh.problems) {
     if (is_known(problem)) continue;
