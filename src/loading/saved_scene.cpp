@@ -14,6 +14,7 @@
 #include "saved_settings.h"
 #include "scene/body_pool.h"
 #include "select_pairs.h"
+#include "wording.h"
 #include "yaml_text.h"
 
 namespace concave_distance::detail {
@@ -263,9 +264,8 @@ class SceneWriter {
   void remark() {
     std::vector<std::string>& remarks = result_.remarks;
     if (!scene_.problems.empty()) {
-      remarks.push_back(
-          std::to_string(scene_.problems.size()) +
-          " parts could not be loaded (list_bodies has them): bodies among them are not in the file");
+      remarks.push_back(counted(scene_.problems.size(), "part") +
+                        " could not be loaded (list_bodies has them): bodies among them are not in the file");
     }
     if (scene_.simulation)
       remarks.emplace_back("the section 'simulation' is not in the file: add it by hand");

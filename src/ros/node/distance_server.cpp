@@ -169,20 +169,10 @@ void DistanceServer::followLoading() {
     adoptCutoff(*outcome->scene->automatic_cutoff);
     config_of_loading_.cutoff = config_.cutoff;
   }
-  applyReconfigured(*outcome->scene);
+  applyChanges(config_of_loading_, config_, *outcome->scene);
   descriptions_.remember(loader_.request());
   keeper_.replace(std::move(*outcome->scene));
   keeper_.setWaitingFor("");
-}
-
-// What was reconfigured since the parameters were read. The caller holds the mutex of the settings.
-void DistanceServer::applyReconfigured(Scene& scene) {
-  if (!concernsPairs(config_of_loading_, config_)) return;
-  for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
-    applyChanges(config_of_loading_, config_, scene.pairs.edit(i).settings);
-  }
-  for (PairSettings& settings : scene.rules.settings) applyChanges(config_of_loading_, config_, settings);
-  applyChanges(config_of_loading_, config_, scene.defaults.pairs);
 }
 
 Scene DistanceServer::loadAgain(const std::shared_ptr<BodyPool>& pool) {
@@ -195,7 +185,7 @@ Scene DistanceServer::loadAgain(const std::shared_ptr<BodyPool>& pool) {
   // On this thread alone: a worker that reads meshes would be missing in the cycle.
   tbb::task_arena(1).execute([&] { scene = loadScene(parameters_, reload_request_, progress, pool); });
   const boost::recursive_mutex::scoped_lock lock(reconfigure_mutex_);
-  applyReconfigured(*scene);
+  applyChanges(config_of_loading_, config_, *scene);
   return std::move(*scene);
 }
 

@@ -67,7 +67,6 @@ class DistanceServer {
   /// Loads the scene again, for the service reload.
   Scene loadAgain(const std::shared_ptr<BodyPool>& pool);
   void onReloaded(const Scene& loaded);
-  void applyReconfigured(Scene& scene);
   void reportMissingClock();
   void setUpDiagnostics();
   /// A wall timer; exceptions in its callback are logged and end there.

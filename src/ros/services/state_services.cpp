@@ -9,6 +9,7 @@
 #include "concave_distance/loading/load_scene.h"
 #include "loading/saved_scene.h"
 #include "loading/scene_files.h"
+#include "loading/wording.h"
 #include "respond.h"
 #include "ros/tf/frames_now.h"
 #include "scene/reload_scene.h"
@@ -83,7 +84,7 @@ void StateServices::requireNoNewProblem(const Scene& fresh, const Scene& now,
   }
   if (response.problems.empty()) return;
   throw Error("reload",
-              std::to_string(response.problems.size()) + " parts cannot be loaded, the first: " +
+              detail::counted(response.problems.size(), "part") + " cannot be loaded, the first: " +
                   response.problems.front().where + ": " + response.problems.front().message,
               "mend them and call again; nothing was changed");
 }
