@@ -114,7 +114,7 @@ std::vector<std::size_t> pairsThatAlwaysOverlap(const Scene& scene, const PairLi
   }
   RandomEngine engine(kSeed);
   for (std::size_t pose = 0; pose <= kRandomPoses && !left.empty(); ++pose) {
-    if (progress != nullptr && progress->stop) return {};
+    if (progress != nullptr && progress->isStopped()) return {};
     const Poses poses = posesOf(robot, pose == 0 ? robot.restPositions() : randomPositions(robot, engine));
     std::vector<char> overlaps(left.size(), 0);
     tbb::parallel_for(std::size_t{0}, left.size(), [&](std::size_t i) {
@@ -229,6 +229,7 @@ void reportOverlappingPairs(Scene& scene, const SceneLoadOptions& options) {
     const SceneBody& a = scene.bodies[all[pair].body_a];
     const SceneBody& b = scene.bodies[all[pair].body_b];
     filtered.emplace_back(std::minmax(a.serial, b.serial));
+    scene.overlapping.push_back(filtered.back());
   }
   std::sort(filtered.begin(), filtered.end());
   scene.rules.filtered = std::make_shared<const decltype(filtered)>(std::move(filtered));
