@@ -1,0 +1,175 @@
+#include "signed_values.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "distance/kernels/triangle_distance.h"
+#include "mesh/surface/mesh_topology.h"
+#include "mesh/surface/round_geometry.h"
+#include "mesh/trees/triangle_tree.h"
+
+namespace concave_distance {
+namespace {
+
+// Metres for a metre of the smaller body: how exact the greatest depth is.
+constexpr double kTolerance = 2.5e-10;
+constexpr std::size_t kNoRegion = std::numeric_limits<std::size_t>::max();
+
+SignedPlace without(SignedState state) {
+  SignedPlace place;
+  place.state = state;
+  return place;
+}
+
+SignedPlace ofDistance(const TrackedNiche& niche) {
+  SignedPlace place;
+  place.state = SignedState::Known;
+  place.value = niche.distance;
+  place.point_a_in_a = place.pivot_in_a = niche.point_a_in_a;
+  place.point_b_in_a = niche.point_b_in_a;
+  place.gradient_in_a = niche.normal_in_a;
+  return place;
+}
+
+double toleranceOf(const PairFrame& frame) {
+  return kTolerance * std::min(frame.a.diameter(), frame.b.diameter());
+}
+
+bool areRoundSolids(const PairFrame& frame) {
+  return frame.a.shape() != nullptr && frame.b.shape() != nullptr;
+}
+
+bool areMeshes(const PairFrame& frame) {
+  return frame.a.shape() == nullptr && frame.b.shape() == nullptr;
+}
+
+/// Returns whether the depth of a round solid in a mesh is that of the mesh below its surface: while the
+/// solid's core, a point or a segment, is outside the mesh. From a point of the solid's surface in the mesh
+/// the way to the core leaves the mesh at a point that is at least as deep in the solid.
+bool hasCoreOutside(const PairFrame& frame) {
+  const bool is_a = frame.a.shape() != nullptr;
+  const RoundShape& shape = is_a ? *frame.a.shape() : *frame.b.shape();
+  if (detail::hasFlatEnds(shape)) return false;
+  const BodyMesh& mesh = is_a ? frame.b : frame.a;
+  const Eigen::Isometry3d mesh_from_shape = (is_a ? frame.bFromA() : frame.a_from_b) * shape.body_from_shape;
+  const Eigen::Vector3d from = mesh_from_shape * Eigen::Vector3d(0.0, 0.0, -shape.half_length);
+  const Eigen::Vector3d to = mesh_from_shape * Eigen::Vector3d(0.0, 0.0, shape.half_length);
+  if (containsPoint(mesh.tree(), mesh.surface(), mesh.topology().shell_is_closed,
+                    mesh.topology().shell_of_triangle, from))
+    return false;
+  return !detail::hasSide(shape) || !segmentHits(mesh.tree(), mesh.surface(), from, to, 0.0);
+}
+
+}  // namespace
+
+void SignedValues::update(const PairFrame& frame, const Cycle& cycle, PairSolution& solution,
+                          WorkLimit& limit) {
+  limit.allowShare(1.0);
+  const bool overlaps = std::any_of(solution.niches.begin(), solution.niches.end(),
+                                    [](const TrackedNiche& niche) { return !(niche.distance > 0.0); });
+  if (overlaps) findRegions(frame, limit);
+  for (TrackedNiche& niche : solution.niches)
+    niche.signed_place = niche.distance > 0.0 ? ofDistance(niche) : ofOverlap(frame, niche, limit);
+  keepAges(cycle, 4.0 * toleranceOf(frame), solution);
+}
+
+void SignedValues::findRegions(const PairFrame& frame, WorkLimit& limit) {
+  if (workspace_ == nullptr) workspace_ = std::make_unique<InterferenceWorkspace>();
+  findInterference(frame.a, frame.b, frame.a_from_b, *workspace_, overlap_, &limit);
+  values_.assign(overlap_.regions.size(), {});
+  search_.begin(frame.a, frame.b, frame.a_from_b, toleranceOf(frame));
+}
+
+SignedPlace SignedValues::ofOverlap(const PairFrame& frame, const TrackedNiche& niche, WorkLimit& limit) {
+  if (overlap_.status != InterferenceStatus::Ok) return without(SignedState::Unfinished);
+  if (frame.hasJoints()) return without(SignedState::CrossedShells);
+  const std::size_t r = regionAt(frame, niche);
+  if (r != kNoRegion) {
+    if (!values_[r].is_known) values_[r] = {true, ofRegion(frame, overlap_.regions[r], limit)};
+    return values_[r].place;
+  }
+  const bool is_closed = frame.a.topology().isOnClosedShell(niche.witness.triangle_a) &&
+                         frame.b.topology().isOnClosedShell(niche.witness.triangle_b);
+  // The surfaces touch and enclose nothing.
+  return is_closed ? ofDistance(niche) : without(SignedState::OpenSurface);
+}
+
+// The surfaces meet at the niche's points, on the border of its region.
+std::size_t SignedValues::regionAt(const PairFrame& frame, const TrackedNiche& niche) const {
+  if (areRoundSolids(frame)) return overlap_.regions.empty() ? kNoRegion : 0;
+  const Eigen::Vector3d place = 0.5 * (niche.point_a_in_a + niche.point_b_in_a);
+  double least = areMeshes(frame) ? 1e-7 * frame.diameters() : std::numeric_limits<double>::infinity();
+  least *= least;
+  std::size_t nearest = kNoRegion;
+  const auto look = [&](bool is_any) {
+    for (std::size_t r = 0; r < overlap_.regions.size(); ++r) {
+      const InterferenceRegion& region = overlap_.regions[r];
+      for (std::uint32_t f = region.first_facet; f < region.first_facet + region.facet_count; ++f) {
+        const OverlapFacet& facet = overlap_.facets[f];
+        const bool is_own =
+            facet.triangle == (facet.of_b ? niche.witness.triangle_b : niche.witness.triangle_a);
+        if (!is_any && !is_own) continue;
+        const double squared = pointTriangleDistance(place, facet.corners_in_a).squared_distance;
+        if (squared >= least) continue;
+        least = squared;
+        nearest = r;
+      }
+    }
+  };
+  look(false);
+  if (nearest == kNoRegion) look(true);
+  return nearest;
+}
+
+SignedPlace SignedValues::ofRegion(const PairFrame& frame, const InterferenceRegion& region,
+                                   WorkLimit& limit) {
+  if (!region.consistent) return without(SignedState::CrossedShells);
+  SignedPlace place;
+  place.state = SignedState::Known;
+  if (areMeshes(frame)) {
+    const OverlapFacet* first = overlap_.facets.data() + region.first_facet;
+    const detail::DeepestPlace deepest = search_.find(first, first + region.facet_count, limit);
+    if (!deepest.is_sure) return without(SignedState::Unfinished);
+    place.value = -deepest.depth;
+    place.pivot_in_a = deepest.inside_in_a;
+    place.point_a_in_a = deepest.inside_is_of_b ? deepest.surface_in_a : deepest.inside_in_a;
+    place.point_b_in_a = deepest.inside_is_of_b ? deepest.inside_in_a : deepest.surface_in_a;
+    place.gradient_in_a = -deepest.slope_in_a;
+    return place;
+  }
+  const bool has_closed_form = areRoundSolids(frame) ? region.facet_count == 0 : hasCoreOutside(frame);
+  if (!has_closed_form || !(region.depth >= 0.0)) return without(SignedState::NoClosedForm);
+  place.value = -region.depth;
+  place.point_a_in_a = place.pivot_in_a = region.point_a_in_a;
+  place.point_b_in_a = region.point_b_in_a;
+  place.gradient_in_a = region.depth > toleranceOf(frame)
+                            ? Eigen::Vector3d((region.point_a_in_a - region.point_b_in_a) / region.depth)
+                            : region.normal_in_a;
+  return place;
+}
+
+void SignedValues::keepAges(const Cycle& cycle, double rounding, PairSolution& solution) {
+  now_.clear();
+  for (TrackedNiche& niche : solution.niches) {
+    SignedPlace& place = niche.signed_place;
+    place.since_cycle = cycle.number;
+    if (place.state != SignedState::Known) continue;
+    const auto known = std::find_if(before_.begin(), before_.end(),
+                                    [&](const Known& before) { return before.id == niche.id; });
+    if (known != before_.end() && std::abs(place.value - known->value) <= cycle.displacement + rounding)
+      place.since_cycle = known->since_cycle;
+    now_.push_back({niche.id, place.value, place.since_cycle});
+  }
+  before_.swap(now_);
+}
+
+std::size_t SignedValues::memoryBytes() const {
+  return search_.memoryBytes() + values_.capacity() * sizeof(RegionValue) +
+         (before_.capacity() + now_.capacity()) * sizeof(Known) +
+         overlap_.regions.capacity() * sizeof(InterferenceRegion) +
+         overlap_.facets.capacity() * sizeof(OverlapFacet) +
+         overlap_.samples.capacity() * sizeof(OverlapSample);
+}
+
+}  // namespace concave_distance
