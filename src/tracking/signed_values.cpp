@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "distance/kernels/triangle_distance.h"
+#include "interference/round_signed_distance.h"
 #include "mesh/surface/mesh_topology.h"
-#include "mesh/surface/round_geometry.h"
-#include "mesh/trees/triangle_tree.h"
 
 namespace concave_distance {
 namespace {
@@ -44,21 +44,17 @@ bool areMeshes(const PairFrame& frame) {
   return frame.a.shape() == nullptr && frame.b.shape() == nullptr;
 }
 
-/// Returns whether the depth of a round solid in a mesh is that of the mesh below its surface: while the
-/// solid's core, a point or a segment, is outside the mesh. From a point of the solid's surface in the mesh
-/// the way to the core leaves the mesh at a point that is at least as deep in the solid.
-bool hasCoreOutside(const PairFrame& frame) {
-  const bool is_a = frame.a.shape() != nullptr;
-  const RoundShape& shape = is_a ? *frame.a.shape() : *frame.b.shape();
-  if (detail::hasFlatEnds(shape)) return false;
-  const BodyMesh& mesh = is_a ? frame.b : frame.a;
-  const Eigen::Isometry3d mesh_from_shape = (is_a ? frame.bFromA() : frame.a_from_b) * shape.body_from_shape;
-  const Eigen::Vector3d from = mesh_from_shape * Eigen::Vector3d(0.0, 0.0, -shape.half_length);
-  const Eigen::Vector3d to = mesh_from_shape * Eigen::Vector3d(0.0, 0.0, shape.half_length);
-  if (containsPoint(mesh.tree(), mesh.surface(), mesh.topology().shell_is_closed,
-                    mesh.topology().shell_of_triangle, from))
-    return false;
-  return !detail::hasSide(shape) || !segmentHits(mesh.tree(), mesh.surface(), from, to, 0.0);
+SignedPlace ofRoundPair(const PairFrame& frame) {
+  const std::optional<detail::RoundSignedDistance> found =
+      detail::roundSignedDistance(*frame.a.shape(), *frame.b.shape(), frame.a_from_b);
+  if (!found) return without(SignedState::NoClosedForm);
+  return {SignedState::Known,
+          found->value,
+          found->point_a_in_a,
+          found->point_b_in_a,
+          found->pivot_in_a,
+          found->gradient_in_a,
+          0};
 }
 
 }  // namespace
@@ -82,6 +78,7 @@ void SignedValues::findRegions(const PairFrame& frame, WorkLimit& limit) {
 }
 
 SignedPlace SignedValues::ofOverlap(const PairFrame& frame, const TrackedNiche& niche, WorkLimit& limit) {
+  if (areRoundSolids(frame)) return ofRoundPair(frame);
   if (overlap_.status != InterferenceStatus::Ok) return without(SignedState::Unfinished);
   if (frame.hasJoints()) return without(SignedState::CrossedShells);
   const std::size_t r = regionAt(frame, niche);
@@ -97,19 +94,17 @@ SignedPlace SignedValues::ofOverlap(const PairFrame& frame, const TrackedNiche& 
 
 // The surfaces meet at the niche's points, on the border of its region.
 std::size_t SignedValues::regionAt(const PairFrame& frame, const TrackedNiche& niche) const {
-  if (areRoundSolids(frame)) return overlap_.regions.empty() ? kNoRegion : 0;
   const Eigen::Vector3d place = 0.5 * (niche.point_a_in_a + niche.point_b_in_a);
-  double least = areMeshes(frame) ? 1e-7 * frame.diameters() : std::numeric_limits<double>::infinity();
+  const bool are_meshes = areMeshes(frame);
+  double least = are_meshes ? 1e-7 * frame.diameters() : std::numeric_limits<double>::infinity();
   least *= least;
   std::size_t nearest = kNoRegion;
-  const auto look = [&](bool is_any) {
+  const auto look = [&](const auto& is_asked) {
     for (std::size_t r = 0; r < overlap_.regions.size(); ++r) {
       const InterferenceRegion& region = overlap_.regions[r];
       for (std::uint32_t f = region.first_facet; f < region.first_facet + region.facet_count; ++f) {
         const OverlapFacet& facet = overlap_.facets[f];
-        const bool is_own =
-            facet.triangle == (facet.of_b ? niche.witness.triangle_b : niche.witness.triangle_a);
-        if (!is_any && !is_own) continue;
+        if (!is_asked(facet)) continue;
         const double squared = pointTriangleDistance(place, facet.corners_in_a).squared_distance;
         if (squared >= least) continue;
         least = squared;
@@ -117,8 +112,12 @@ std::size_t SignedValues::regionAt(const PairFrame& frame, const TrackedNiche& n
       }
     }
   };
-  look(false);
-  if (nearest == kNoRegion) look(true);
+  if (are_meshes) {
+    look([&](const OverlapFacet& facet) {
+      return facet.triangle == (facet.of_b ? niche.witness.triangle_b : niche.witness.triangle_a);
+    });
+  }
+  if (nearest == kNoRegion) look([](const OverlapFacet&) { return true; });
   return nearest;
 }
 
@@ -138,7 +137,9 @@ SignedPlace SignedValues::ofRegion(const PairFrame& frame, const InterferenceReg
     place.gradient_in_a = -deepest.slope_in_a;
     return place;
   }
-  const bool has_closed_form = areRoundSolids(frame) ? region.facet_count == 0 : hasCoreOutside(frame);
+  const bool is_a = frame.a.shape() != nullptr;
+  const bool has_closed_form = is_a ? detail::isCoreOutside(*frame.a.shape(), frame.b, frame.bFromA())
+                                    : detail::isCoreOutside(*frame.b.shape(), frame.a, frame.a_from_b);
   if (!has_closed_form || !(region.depth >= 0.0)) return without(SignedState::NoClosedForm);
   place.value = -region.depth;
   place.point_a_in_a = place.pivot_in_a = region.point_a_in_a;

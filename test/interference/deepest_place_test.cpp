@@ -126,7 +126,7 @@ double climbedDepth(const Overlap& overlap, const InterferenceRegion& region, Ra
     double step = 0.3;
     for (int i = 0; i < 1500 && step > 1e-10; ++i) {
       // Along a ridge only short steps gain, and then long ones again.
-      const double length = step * powerOfTen(engine, -2.0, 1.0);
+      const double length = step * test::powerOfTen(engine, -2.0, 1.0);
       Vector3d weights = (at.weights + length * test::uniformInCube(engine, 1.0)).cwiseMax(0.0);
       if (!(weights.sum() > 0.0)) continue;
       weights /= weights.sum();

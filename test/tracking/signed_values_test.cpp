@@ -83,8 +83,8 @@ struct Approach {
     const Vector3d from = uniformInCube(engine, 1.0).normalized();
     const Vector3d aside = uniformInCube(engine, 0.15 * scene.reach());
     const Vector3d middle = scene.a->bounds().center() - start.linear() * scene.b->bounds().center();
-    start.translation() = middle + aside + 0.9 * scene.reach() * from;
-    linear = -0.8 * scene.reach() * from;
+    start.translation() = middle + aside + 1.25 * scene.reach() * from;
+    linear = -1.05 * scene.reach() * from;
     turn = uniformInCube(engine, 0.4);
   }
   Isometry3d at(double share) const {
@@ -293,35 +293,61 @@ TEST(SignedValues, OfABoxInAPlateIsItsDepthLessTheMargins) {
   }
 }
 
-// The rod's end is as deep as the ball that would fit: two walls of the plate, then the way down the middle.
-TEST(SignedValues, BeginTheirAgeAnewWhereRegionsMerge) {
-  // Two legs of unequal length go into a plate until the bridge between them does.
-  const Body table = makeBody(makeExtrusion(
-      {{0.0, 0.0}, {0.2, 0.0}, {0.2, 0.4}, {0.6, 0.4}, {0.6, 0.1}, {0.8, 0.1}, {0.8, 0.6}, {0.0, 0.6}}, 0.3));
-  PairTracker tracker("legs", cuboid(4.0, 2.0, 4.0), table, asked());
-  PairSolution solution;
+/// A table with a long and a short leg, at x = 0 and 0.6 of 0.8.
+Body unequalLegs(bool mirrored) {
+  Outline outline = {{0.0, 0.0}, {0.2, 0.0}, {0.2, 0.4}, {0.6, 0.4},
+                     {0.6, 0.1}, {0.8, 0.1}, {0.8, 0.6}, {0.0, 0.6}};
+  if (mirrored) {
+    for (Eigen::Vector2d& corner : outline) corner.x() = 0.8 - corner.x();
+    std::reverse(outline.begin(), outline.end());
+  }
+  return makeBody(makeExtrusion(outline, 0.3));
+}
+
+TEST(SignedValues, JumpOnlyWherePartsMergeOrSplitAndSaySo) {
+  std::size_t jumps = 0;
   std::size_t merges = 0;
-  std::uint64_t begun = 0;
-  for (int k = 0; k <= 60; ++k) {
-    tracker.update(translation({-0.4, 1.05 - 0.01 * k, -0.15}), 0.01 * k, solution);
-    const bool are_one = k > 45;
-    for (const NicheEvent& event : solution.events) merges += event.kind == NicheEvent::Kind::Merge ? 1U : 0U;
-    std::vector<double> values;
-    for (const TrackedNiche& niche : solution.niches) {
-      ASSERT_EQ(niche.signed_place.state, SignedState::Known);
-      values.push_back(niche.signed_place.value);
-      if (are_one && niche.signed_place.value < 0.0) begun = niche.signed_place.since_cycle;
-    }
-    std::sort(values.begin(), values.end());
-    ASSERT_FALSE(values.empty());
-    EXPECT_NEAR(values.front(), 0.05 - 0.01 * k, 1e-12);
-    if (!are_one && k > 16) {
-      ASSERT_GE(values.size(), 2U);
-      EXPECT_NEAR(values[1], 0.15 - 0.01 * k, 1e-12);
+  for (const bool mirrored : {false, true}) {
+    for (const bool leaves : {false, true}) {
+      PairTracker tracker("legs", cuboid(4.0, 2.0, 4.0), unequalLegs(mirrored), asked());
+      PairSolution before;
+      PairSolution now;
+      for (int k = 0; k <= 60; ++k) {
+        SCOPED_TRACE(k);
+        const double gap = 0.055 - 0.01 * (leaves ? 60 - k : k);
+        tracker.update(translation({-0.4, 1.0 + gap, -0.15}), 0.01 * k, now);
+        std::vector<double> values;
+        const auto at_zero = [](const PairSolution& solution) {
+          return std::count_if(solution.niches.begin(), solution.niches.end(),
+                               [](const TrackedNiche& niche) { return niche.distance == 0.0; });
+        };
+        for (const TrackedNiche& niche : now.niches) {
+          const SignedPlace& place = niche.signed_place;
+          ASSERT_EQ(place.state, SignedState::Known);
+          values.push_back(place.value);
+          const TrackedNiche* known = k == 0 ? nullptr : nicheOf(before, niche.id);
+          if (known == nullptr) continue;
+          const double change = std::abs(place.value - known->signed_place.value);
+          EXPECT_EQ(place.since_cycle == now.cycle, change > 0.011);
+          if (place.since_cycle < now.cycle) continue;
+          ++jumps;
+          EXPECT_NE(at_zero(before), at_zero(now));
+        }
+        for (const NicheEvent& event : now.events) merges += event.kind == NicheEvent::Kind::Merge ? 1U : 0U;
+        std::sort(values.begin(), values.end());
+        ASSERT_FALSE(values.empty());
+        EXPECT_NEAR(values.front(), gap, 1e-12);
+        if (gap > -0.4 && gap < -0.1) {
+          ASSERT_GE(values.size(), 2U);
+          EXPECT_NEAR(values[1], gap + 0.1, 1e-12);
+        }
+        std::swap(before, now);
+      }
     }
   }
-  EXPECT_EQ(merges, 1U);
-  EXPECT_EQ(begun, 0U);  // the older part was the deeper one: its value goes on
+  std::printf("%zu jumps, %zu merges\n", jumps, merges);
+  EXPECT_GE(jumps, 1U);
+  EXPECT_EQ(merges, 2U);
 }
 
 TEST(SignedValues, SayWhyThereIsNone) {
