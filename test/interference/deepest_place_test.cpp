@@ -93,9 +93,8 @@ struct Overlap {
   detail::DeepestPlaceSearch search;
 };
 
-/// Climbs from the deepest of random points of the region's facets, by random steps in the facet that grow
-/// and shrink.
-double climbedDepth(const Overlap& overlap, const InterferenceRegion& region, RandomEngine& engine) {
+/// Looks around the deepest of random points of the region's facets, in neighbourhoods that shrink.
+double sampledDepth(const Overlap& overlap, const InterferenceRegion& region, RandomEngine& engine) {
   struct Start {
     double depth;
     const OverlapFacet* facet;
@@ -111,38 +110,53 @@ double climbedDepth(const Overlap& overlap, const InterferenceRegion& region, Ra
   for (std::uint32_t f = region.first_facet; f < region.first_facet + region.facet_count; ++f) {
     const OverlapFacet& facet = overlap.found.facets[f];
     if (facet.is_negative) continue;
-    const int count = 3 + static_cast<int>(600 / region.facet_count);
+    Start best{-1.0, &facet, Vector3d::Zero()};
+    const int count = 40 + static_cast<int>(400 / region.facet_count);
     for (int i = 0; i < count; ++i) {
       Vector3d weights =
           i < 3 ? Vector3d::Unit(i) : Vector3d(uniformUnit(engine), uniformUnit(engine), uniformUnit(engine));
       weights /= weights.sum();
-      starts.push_back({depthAt(facet, weights), &facet, weights});
+      const double depth = depthAt(facet, weights);
+      if (depth > best.depth) best = {depth, &facet, weights};
     }
+    starts.push_back(best);
   }
   std::sort(starts.begin(), starts.end(), [](const Start& l, const Start& r) { return l.depth > r.depth; });
   double deepest = 0.0;
-  for (std::size_t s = 0; s < std::min<std::size_t>(8, starts.size()); ++s) {
-    Start at = starts[s];
-    double step = 0.3;
-    for (int i = 0; i < 1500 && step > 1e-10; ++i) {
-      // Along a ridge only short steps gain, and then long ones again.
-      const double length = step * test::powerOfTen(engine, -2.0, 1.0);
-      Vector3d weights = (at.weights + length * test::uniformInCube(engine, 1.0)).cwiseMax(0.0);
-      if (!(weights.sum() > 0.0)) continue;
-      weights /= weights.sum();
-      const double depth = depthAt(*at.facet, weights);
-      step = depth > at.depth ? std::max(step, 2.0 * length) : 0.98 * step;
-      if (depth > at.depth) at = {depth, at.facet, weights};
+  for (std::size_t s = 0; s < std::min<std::size_t>(16, starts.size()); ++s) {
+    deepest = std::max(deepest, starts[s].depth);
+    const OverlapFacet& facet = *starts[s].facet;
+    // All over the facet, and on each edge, which ridges end at.
+    for (int edge = -1; edge < 3; ++edge) {
+      const Vector3d from = edge < 0 ? starts[s].weights : Vector3d::Unit(edge);
+      const Vector3d to = edge < 0 ? from : Vector3d::Unit((edge + 1) % 3);
+      Start at{-1.0, &facet, 0.5 * (from + to)};
+      for (double reach = edge < 0 ? 0.3 : 1.0; reach > 1e-8; reach *= 0.75) {
+        const Start middle = at;
+        for (int i = 0; i < 25; ++i) {
+          Vector3d weights = middle.weights;
+          if (edge < 0) {
+            weights = (weights + reach * test::uniformInCube(engine, 1.0)).cwiseMax(0.0);
+            if (!(weights.sum() > 0.0)) continue;
+            weights /= weights.sum();
+          } else {
+            const double share = weights[(edge + 1) % 3] + reach * test::uniformIn(engine, -1.0, 1.0);
+            weights = from + std::clamp(share, 0.0, 1.0) * (to - from);
+          }
+          const double depth = depthAt(facet, weights);
+          if (depth > at.depth) at = {depth, &facet, weights};
+        }
+      }
+      deepest = std::max(deepest, at.depth);
     }
-    deepest = std::max(deepest, at.depth);
   }
   return deepest;
 }
 
 TEST(DeepestPlace, OfConcaveSolidsIsAttainedAndNoOtherPlaceIsDeeper) {
   std::size_t regions = 0;
-  std::size_t reached = 0;
-  for (std::uint64_t seed = 0; seed < 120; ++seed) {
+  std::size_t met = 0;
+  for (std::uint64_t seed = 0; seed < 60; ++seed) {
     RandomEngine engine(seed);
     const SurfaceMesh a = test::randomSolid(engine);
     const SurfaceMesh b = test::randomSolid(engine);
@@ -159,19 +173,24 @@ TEST(DeepestPlace, OfConcaveSolidsIsAttainedAndNoOtherPlaceIsDeeper) {
       EXPECT_NEAR(distanceFrom(place.inside_in_a, other), place.depth, 1e-3 * exact);
       EXPECT_NEAR((place.inside_in_a - place.surface_in_a).norm(), place.depth, 1e-3 * exact);
       EXPECT_LE(distanceFrom(place.inside_in_a, own), 1e-3 * exact);
+      std::vector<std::array<Vector3d, 3>> of_region;
+      for (std::uint32_t f = region.first_facet; f < region.first_facet + region.facet_count; ++f) {
+        if (overlap.found.facets[f].of_b == place.inside_is_of_b)
+          of_region.push_back(overlap.found.facets[f].corners_in_a);
+      }
+      EXPECT_LE(distanceFrom(place.inside_in_a, of_region), 1e-3 * exact);
       EXPECT_TRUE(isInside(place.inside_in_a, other));
       // The region's own search is right to 1 %, from below but for fans.
       EXPECT_LE(region.depth, 1.0001 * place.depth + exact);
       EXPECT_GE(region.depth, 0.985 * place.depth - exact);
-      const double climbed = climbedDepth(overlap, region, engine);
-      EXPECT_LE(climbed, place.depth + exact);
+      const double sampled = sampledDepth(overlap, region, engine);
+      EXPECT_LE(sampled, place.depth + exact);
       ++regions;
-      if (climbed >= place.depth - 1e-6 * overlap.size()) ++reached;
+      if (sampled >= place.depth - 1e-6 * overlap.size()) ++met;
     }
   }
-  std::printf("%zu regions, climbed to in %zu\n", regions, reached);
-  EXPECT_GE(regions, 100U);
-  EXPECT_GE(reached, regions * 9 / 10);
+  EXPECT_GE(regions, 50U);
+  EXPECT_GE(met, regions * 3 / 4);
 }
 
 /// The greatest depth of a convex body's surface in another one: at a place where three of these meet: the
@@ -320,6 +339,15 @@ TEST(DeepestPlace, OfAPegThroughAPlateIsInItsMiddleAndDoesNotChange) {
     EXPECT_NEAR(place.depth, 0.1, kExact);
     EXPECT_NEAR(place.slope_in_a.norm(), 0.0, 1e-6);
   }
+}
+
+TEST(DeepestPlace, IsNotSureWhereTheTimeWasOver) {
+  const SurfaceMesh cube = test::makeCuboid(Vector3d::Constant(-0.5), Vector3d::Constant(0.5));
+  Overlap overlap(cube, cube, test::translation({0.8, 0.1, 0.2}));
+  ASSERT_EQ(overlap.found.regions.size(), 1U);
+  WorkLimit over(WorkLimit::Clock::now(), 0.0, 1U << 20U, nullptr);
+  const OverlapFacet* first = overlap.found.facets.data();
+  EXPECT_FALSE(overlap.search.find(first, first + overlap.found.facets.size(), over).is_sure);
 }
 
 TEST(DeepestPlace, AllocatesNothingAgain) {

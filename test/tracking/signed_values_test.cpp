@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -111,13 +112,11 @@ TEST(SignedValues, ChangeByNoMoreThanTheBodiesMoveAlongAThousandMotions) {
   std::size_t values = 0;
   std::size_t touches = 0;
   std::size_t jumps = 0;
-  std::size_t unexplained = 0;
   std::size_t unknown = 0;
   for (const Scene& scene : scenes()) {
     PairTracker tracker(scene.name, scene.a, scene.b, asked());
     PairSolution before;
     PairSolution now;
-    std::size_t scene_jumps = 0, scene_unknown = 0, scene_touches = 0;
     for (std::uint64_t seed = 0; seed < 100; ++seed) {
       const Approach approach(scene, seed);
       tracker.restart();
@@ -129,7 +128,7 @@ TEST(SignedValues, ChangeByNoMoreThanTheBodiesMoveAlongAThousandMotions) {
           const SignedPlace& place = niche.signed_place;
           const TrackedNiche* known = k == 0 ? nullptr : nicheOf(before, niche.id);
           if (place.state != SignedState::Known) {
-            ++scene_unknown;
+            ++unknown;
             continue;
           }
           EXPECT_EQ(place.value > 0.0, niche.distance > 0.0);
@@ -141,14 +140,14 @@ TEST(SignedValues, ChangeByNoMoreThanTheBodiesMoveAlongAThousandMotions) {
             continue;
           }
           ++values;
-          if ((place.value > 0.0) != (known->signed_place.value > 0.0)) ++scene_touches;
+          if ((place.value > 0.0) != (known->signed_place.value > 0.0)) ++touches;
           const double change = std::abs(place.value - known->signed_place.value);
           if (place.since_cycle < now.cycle) {
             EXPECT_EQ(place.since_cycle, known->signed_place.since_cycle);
             EXPECT_LE(change, way + 2e-9 * scene.size());
             continue;
           }
-          ++scene_jumps;
+          ++jumps;
           EXPECT_GT(change, 0.5 * way);
           // Regions or niches have become others.
           const auto solid = [](const Interference& found) {
@@ -158,24 +157,17 @@ TEST(SignedValues, ChangeByNoMoreThanTheBodiesMoveAlongAThousandMotions) {
           const bool is_explained =
               !now.events.empty() || solid(overlapOf(scene.a, scene.b, before.a_from_b)) !=
                                          solid(overlapOf(scene.a, scene.b, now.a_from_b));
-          if (!is_explained) {
-            ++unexplained;
-            ADD_FAILURE() << "from " << known->signed_place.value << " to " << place.value << ", way " << way
-                          << ", id " << niche.id;
-          }
+          EXPECT_TRUE(is_explained) << "from " << known->signed_place.value << " to " << place.value
+                                    << ", way " << way << ", id " << niche.id;
         }
         std::swap(before, now);
       }
     }
-    std::printf("%s: %zu touches, %zu jumps, %zu unknown\n", scene.name.c_str(), scene_touches, scene_jumps,
-                scene_unknown);
-    touches += scene_touches;
-    jumps += scene_jumps;
-    unknown += scene_unknown;
   }
-  std::printf("%zu values, %zu touches, %zu jumps (%zu unexplained), %zu unknown\n", values, touches, jumps,
-              unexplained, unknown);
-  EXPECT_GE(touches, 800U);
+  EXPECT_GE(touches, 1000U);
+  EXPECT_GE(jumps, 10U);
+  EXPECT_LE(500 * jumps, values);
+  EXPECT_LE(20 * unknown, values);
 }
 
 TEST(SignedValues, HaveTheGradientOfTheirFiniteDifferences) {
@@ -183,11 +175,8 @@ TEST(SignedValues, HaveTheGradientOfTheirFiniteDifferences) {
   std::size_t smooth = 0;
   std::size_t kinks = 0;
   std::size_t inside = 0;
-  double worst = 0.0;
   for (const Scene& scene : scenes()) {
     PairTracker tracker(scene.name, scene.a, scene.b, asked());
-    double scene_worst = 0.0;
-    std::size_t scene_smooth = 0, scene_kinks = 0;
     for (std::uint64_t seed = 0; seed < 60; ++seed) {
       RandomEngine engine(1000 + seed);
       const Isometry3d pose = Approach(scene, seed).at(uniformIn(engine, 0.2, 1.0));
@@ -207,26 +196,19 @@ TEST(SignedValues, HaveTheGradientOfTheirFiniteDifferences) {
         const double rate_back = (place.value - back->signed_place.value) / kStep;
         const double rate_forth = (forth->signed_place.value - place.value) / kStep;
         if (!(std::abs(rate_forth - rate_back) < 3e-4)) {
-          ++scene_kinks;
+          ++kinks;
           continue;
         }
         const double rate = place.gradient_in_a.dot(linear + angular.cross(place.pivot_in_a));
         const double error = std::abs(rate - 0.5 * (rate_back + rate_forth));
-        scene_worst = std::max(scene_worst, error);
         EXPECT_LE(error, 1e-5) << scene.name << ", seed " << seed << ", value " << place.value
                                << ", length of the gradient " << place.gradient_in_a.norm() << ", rates "
                                << rate_back << " " << rate_forth << ", expected " << rate;
-        ++scene_smooth;
+        ++smooth;
         inside += place.value < 0.0 ? 1U : 0U;
       }
     }
-    std::printf("%s: smooth %zu, kinks %zu, worst %.2g\n", scene.name.c_str(), scene_smooth, scene_kinks,
-                scene_worst);
-    smooth += scene_smooth;
-    kinks += scene_kinks;
-    worst = std::max(worst, scene_worst);
   }
-  std::printf("%zu smooth (%zu inside), %zu kinks, worst %.2g\n", smooth, inside, kinks, worst);
   EXPECT_GE(inside, 250U);
   EXPECT_LE(kinks, smooth / 10);
 }
@@ -270,8 +252,9 @@ TEST(SignedValues, HaveOneNormalOnBothSidesOfFirstTouch) {
       ++compared;
     }
   }
-  std::printf("%zu touches, shortest gradient %.3g\n", compared, shortest);
   EXPECT_GE(compared, 150U);
+  // An edge goes into an edge: the depth below its walls grows more slowly than the distance fell.
+  EXPECT_LT(shortest, 0.9);
 }
 
 TEST(SignedValues, OfABoxInAPlateIsItsDepthLessTheMargins) {
@@ -345,9 +328,47 @@ TEST(SignedValues, JumpOnlyWherePartsMergeOrSplitAndSaySo) {
       }
     }
   }
-  std::printf("%zu jumps, %zu merges\n", jumps, merges);
   EXPECT_GE(jumps, 1U);
   EXPECT_EQ(merges, 2U);
+}
+
+TEST(SignedValues, AreTheSameSwappedAndOfBodiesModelledFarAway) {
+  std::size_t compared = 0;
+  for (const Scene& scene : scenes()) {
+    for (std::uint64_t seed = 0; seed < 10; ++seed) {
+      SCOPED_TRACE(scene.name + ", motion " + std::to_string(seed));
+      const Isometry3d pose = Approach(scene, seed).at(0.75);
+      const PairSolution plain = solveOnce(scene.name, scene.a, scene.b, asked(), pose);
+      const PairSolution swapped =
+          solveOnce(scene.name, scene.b, scene.a, asked(), pose.inverse(Eigen::Isometry));
+      ASSERT_EQ(plain.niches.size(), swapped.niches.size());
+      const Vector3d far(1e3, -2e3, 500.0);
+      std::vector<Vector3d> vertices = scene.b->surface().vertices();
+      for (Vector3d& vertex : vertices) vertex += far;
+      PairSolution moved;
+      if (scene.b->shape() == nullptr) {
+        const Body b = makeBody(SurfaceMesh(vertices, scene.b->surface().triangles(), "far"));
+        moved = solveOnce(scene.name, scene.a, b, asked(), pose * translation(-far));
+        ASSERT_EQ(plain.niches.size(), moved.niches.size());
+      }
+      for (const TrackedNiche& niche : plain.niches) {
+        const SignedPlace& place = niche.signed_place;
+        if (place.state != SignedState::Known) continue;
+        const auto offIn = [&](const PairSolution& other) {
+          double least = std::numeric_limits<double>::infinity();
+          for (const TrackedNiche& found : other.niches)
+            least = std::min(least, std::abs(found.signed_place.value - place.value));
+          return least;
+        };
+        EXPECT_LE(offIn(swapped), 2e-9 * scene.size());
+        if (scene.b->shape() == nullptr) {
+          EXPECT_LE(offIn(moved), 2e-9 * scene.size());
+        }
+        ++compared;
+      }
+    }
+  }
+  EXPECT_GE(compared, 150U);
 }
 
 TEST(SignedValues, SayWhyThereIsNone) {
