@@ -64,15 +64,19 @@ void SignedValues::update(const PairFrame& frame, const Cycle& cycle, PairSoluti
   limit.allowShare(1.0);
   const bool overlaps = std::any_of(solution.niches.begin(), solution.niches.end(),
                                     [](const TrackedNiche& niche) { return !(niche.distance > 0.0); });
-  if (overlaps) findRegions(frame, limit);
+  if (overlaps && !areRoundSolids(frame)) findRegions(frame, limit);
   for (TrackedNiche& niche : solution.niches)
     niche.signed_place = niche.distance > 0.0 ? ofDistance(niche) : ofOverlap(frame, niche, limit);
   keepAges(cycle, 4.0 * toleranceOf(frame), solution);
 }
 
 void SignedValues::findRegions(const PairFrame& frame, WorkLimit& limit) {
+  // A pair that stands still keeps its answer.
+  if (has_regions_ && pose_.matrix() == frame.a_from_b.matrix()) return;
   if (workspace_ == nullptr) workspace_ = std::make_unique<InterferenceWorkspace>();
   findInterference(frame.a, frame.b, frame.a_from_b, *workspace_, overlap_, &limit);
+  has_regions_ = overlap_.status == InterferenceStatus::Ok;
+  pose_ = frame.a_from_b;
   values_.assign(overlap_.regions.size(), {});
   search_.begin(frame.a, frame.b, frame.a_from_b, toleranceOf(frame));
 }
@@ -83,8 +87,9 @@ SignedPlace SignedValues::ofOverlap(const PairFrame& frame, const TrackedNiche& 
   if (frame.hasJoints()) return without(SignedState::CrossedShells);
   const std::size_t r = regionAt(frame, niche);
   if (r != kNoRegion) {
-    if (!values_[r].is_known) values_[r] = {true, ofRegion(frame, overlap_.regions[r], limit)};
-    return values_[r].place;
+    if (values_[r].state == SignedState::NotAsked) values_[r] = ofRegion(frame, overlap_.regions[r], limit);
+    has_regions_ = has_regions_ && values_[r].state != SignedState::Unfinished;
+    return values_[r];
   }
   const bool is_closed = frame.a.topology().isOnClosedShell(niche.witness.triangle_a) &&
                          frame.b.topology().isOnClosedShell(niche.witness.triangle_b);
@@ -166,7 +171,7 @@ void SignedValues::keepAges(const Cycle& cycle, double rounding, PairSolution& s
 }
 
 std::size_t SignedValues::memoryBytes() const {
-  return search_.memoryBytes() + values_.capacity() * sizeof(RegionValue) +
+  return search_.memoryBytes() + values_.capacity() * sizeof(SignedPlace) +
          (before_.capacity() + now_.capacity()) * sizeof(Known) +
          overlap_.regions.capacity() * sizeof(InterferenceRegion) +
          overlap_.facets.capacity() * sizeof(OverlapFacet) +

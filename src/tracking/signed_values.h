@@ -21,7 +21,10 @@ class SignedValues {
   };
   /// @param solution before margins are taken off its distances
   void update(const detail::PairFrame& frame, const Cycle& cycle, PairSolution& solution, WorkLimit& limit);
-  void clear() { before_.clear(); }
+  void clear() {
+    before_.clear();
+    has_regions_ = false;
+  }
   std::size_t memoryBytes() const;
 
  private:
@@ -29,11 +32,6 @@ class SignedValues {
     std::uint64_t id;
     double value;
     std::uint64_t since_cycle;
-  };
-  /// What a region comes to, once a niche has asked for it.
-  struct RegionValue {
-    bool is_known = false;
-    SignedPlace place;
   };
 
   void findRegions(const detail::PairFrame& frame, WorkLimit& limit);
@@ -45,7 +43,9 @@ class SignedValues {
   std::unique_ptr<InterferenceWorkspace> workspace_;  ///< nullptr: no overlap yet
   Interference overlap_;
   detail::DeepestPlaceSearch search_;
-  std::vector<RegionValue> values_;  ///< of overlap_.regions
+  std::vector<SignedPlace> values_;  ///< of overlap_.regions; not asked for where no niche has
+  bool has_regions_ = false;         ///< all of them, at pose_
+  Eigen::Isometry3d pose_ = Eigen::Isometry3d::Identity();
   std::vector<Known> before_;
   std::vector<Known> now_;
 };

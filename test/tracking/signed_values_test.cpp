@@ -400,6 +400,18 @@ TEST(SignedValues, SayWhyThereIsNone) {
   EXPECT_TRUE(
       solveOnce("pair", cuboid(1.0, 1.0, 1.0), cuboid(0.4, 0.4, 0.4), asked(), translation({0.1, 0.0, 0.0}))
           .niches.empty());
+  for (const AccuracyLevel level : {AccuracyLevel::Refined, AccuracyLevel::Nodes}) {
+    TrackerParameters parameters = asked();
+    parameters.accuracy = level;
+    const PairSolution found =
+        solveOnce("pair", cuboid(1.0, 1.0, 1.0), cuboid(0.4, 0.4, 0.4), parameters, in);
+    ASSERT_FALSE(found.niches.empty());
+    const SignedPlace& place = found.niches.front().signed_place;
+    EXPECT_EQ(place.state, level == AccuracyLevel::Nodes ? SignedState::NotAsked : SignedState::Known);
+    if (level == AccuracyLevel::Refined) {
+      EXPECT_NEAR(place.value, -0.1, 1e-12);
+    }
+  }
   // Nobody has asked.
   const PairSolution plain = solveOnce("pair", cuboid(1.0, 1.0, 1.0), cuboid(0.4, 0.4, 0.4), {}, in);
   EXPECT_EQ(plain.niches.front().signed_place.state, SignedState::NotAsked);
