@@ -25,6 +25,7 @@ started=$(mktemp)  # older than every file that this run writes
 trap 'rm -rf "$started" "${folder:-}"' EXIT
 mkdir -p "$results"
 "$(program tracking_benchmark)" --steps "$steps" --output "$results/tracking.csv" | tee "$results/tracking.txt"
+"$(program tracking_benchmark)" --steps "$steps,$((10 * steps))" --cutoffs 0,0.5 --output "$results/niche_costs.csv"
 "$(program tracking_benchmark)" --pairs simple --steps "$steps" --output "$results/simple_pairs.csv"
 "$(program scene_benchmark)" --cycles "$scene_cycles" --fcl-cycles 5 --output "$results/scene.csv"
 "$(program battery_benchmark)" --runs "$runs" --niche-runs "$niche_runs" --output "$results/battery.csv" |

@@ -18,6 +18,7 @@
 #include "mesh/surface/grid_size.h"
 #include "mesh/surface/round_geometry.h"
 #include "mesh/surface/triangle_adjacency.h"
+#include "mesh/trees/dented_groups.h"
 #include "mesh/trees/hull_gap.h"
 #include "mesh/trees/normal_cone_tree.h"
 #include "mesh/trees/shell_contacts.h"
@@ -39,6 +40,7 @@ struct BodyMesh::State {
   MadeOnce<CompressedRows<AdjacentTriangle>> adjacency;
   MadeOnce<ConnectedPieces> pieces;
   std::array<MadeOnce<NormalConeTree>, 2> cones;  ///< by NormalSides
+  MadeOnce<std::vector<bool>> dented_groups;
 };
 
 namespace {
@@ -180,6 +182,11 @@ const NormalConeTree& BodyMesh::normalCones(NormalSides sides) const {
   });
 }
 
+const std::vector<bool>& BodyMesh::dentedGroups() const {
+  return state_->dented_groups.get(
+      [&] { return markDentedGroups(normalCones(NormalSides::Outside), surface(), topology(), hullGap()); });
+}
+
 void BodyMesh::prepareNiches(NormalSides sides) const {
   shellContacts();
   runTogether({[&] { normalCones(sides); },
@@ -189,6 +196,7 @@ void BodyMesh::prepareNiches(NormalSides sides) const {
                  hullGap();
                  convexShells();
                }});
+  if (sides == NormalSides::Outside) dentedGroups();
 }
 
 std::size_t BodyMesh::memoryBytes() const {

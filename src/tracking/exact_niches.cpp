@@ -104,6 +104,8 @@ void ExactNiches::admit(const PairFrame& frame, const TrackerParameters& paramet
   request_.known.reset();
   if (cycle.convex == detail::ConvexNiches::OnlyTheNearest) request_.known = {&request_.proposals.back()};
   if (cycle.convex == detail::ConvexNiches::None) request_.known = {nullptr};
+  const bool only_dents = cycle.convex == detail::ConvexNiches::TheNearestAndDents;
+  request_.nearest_beside_dents = only_dents ? &request_.proposals.back() : nullptr;
   findLocalMinima(frame, request_, memory_, found_);
   current_ = found_.finished;
   solution.cost.evaluations +=

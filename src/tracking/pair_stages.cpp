@@ -108,7 +108,7 @@ void PairStages::solveExact(const Passed& passed, PairSolution& solution, WorkLi
   frame.openFacets();
   frame.pose_error = pose_error_;
   const ConvexNiches convex = countConvexNiches();
-  const bool are_counted = convex != ConvexNiches::Unknown;
+  const bool are_counted = convex == ConvexNiches::OnlyTheNearest || convex == ConvexNiches::None;
   if (!basis.is_search_prepared && !are_counted && cycle_.is_tracked && parameters_.search_share > 0.0)
     prepare(basis);
   limit.allowShare(kShareOfSearch);
@@ -167,7 +167,8 @@ detail::ConvexNiches PairStages::countConvexNiches() const {
                        basisParameters().margin()};
   return detail::countConvexNiches(
       basisFrame(), rule, certainOnBasis(),
-      proof_.certificate().status != CertificateStatus::Penetrating && proof_.isSwallowed());
+      proof_.certificate().status != CertificateStatus::Penetrating && proof_.isSwallowed(),
+      isRound() ? nullptr : &proof_.certificate().witness);
 }
 
 // Whenever a tracked pair has moved. A pose alone has nothing to inherit: there the search is for those that

@@ -21,7 +21,6 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <filesystem>
 #include <iterator>
 
 #include "benchmark/support/benchmark_main.h"
@@ -187,15 +186,6 @@ void observe(const BenchmarkPair& pair, const Eigen::Isometry3d& pose, MinimaTra
   sample.anew += counts.began_anew ? 1 : 0;
 }
 
-/// @param names two files, with a colon between them
-BenchmarkPair loadFiles(const std::string& names) {
-  const std::size_t colon = names.find(':');
-  const auto stem = [](const std::string& path) { return std::filesystem::path(path).stem().string(); };
-  const std::string file_a = names.substr(0, colon);
-  const std::string file_b = colon == std::string::npos ? file_a : names.substr(colon + 1);
-  return makeCirclingPair(stem(file_a) + "-" + stem(file_b), file_a, file_b);
-}
-
 }  // namespace
 
 int benchmarkMain(int argc, char** argv) {
@@ -220,7 +210,7 @@ int benchmarkMain(int argc, char** argv) {
       "by_border,mended,floods,cells,measured,other,kilobytes");
   if (!files.empty()) names = files;
   for (const std::string& name : names) {
-    const BenchmarkPair pair = files.empty() ? loadBenchmarkPair(name) : loadFiles(name);
+    const BenchmarkPair pair = files.empty() ? loadBenchmarkPair(name) : makeCirclingPair(name);
     for (const int count : steps) {
       Sample sample;
       for (int window = 0; window < windows; ++window) {

@@ -1,21 +1,28 @@
 // Tracked and cold solves at level `certified` beside FCL's plain distance on the same meshes and poses, in
 // one run and one thread; every answer is checked against FCL's.
 //
-//   tracking_benchmark [--pairs name,name,...] [--steps 500] [--output doc/results/tracking.csv]
+//   tracking_benchmark [--pairs name,name,...] [--files a.stl:b.stl,...] [--steps 500,...] [--cutoffs 0,...]
+//                      [--output doc/results/tracking.csv]
 //
-// With `--pairs simple` those whose geometry calls for little. A row is a pair: triangles of A and B;
-// milliseconds that making what niches need of both bodies takes, and the first cycle with niches of a new
-// tracker after it; medians in microseconds of FCL, of a cold solve of one pose, of the first cycle of a
-// prepared tracker, of a warm cycle with all niches (and its 99th percentile), of one with
-// the distance alone; warm / FCL (below 1: all niches in less time than FCL's one distance) and FCL /
+// With `--pairs simple` those whose geometry calls for little; with --files pairs of mesh files, the second
+// circling the first one as near as it can without touching it. A row is a pair, a number of instants along
+// its motion (5 s long: 500 is 100 Hz) and a cutoff for niches, as a share of the smaller body's diameter (0:
+// none): triangles of A and B; milliseconds that making what niches need of both bodies takes, and the first
+// cycle with niches of a new tracker after it; medians in microseconds of FCL, of a cold solve of one pose,
+// of the first cycle of a prepared tracker, of a warm cycle with all niches (and its 99th percentile), of one
+// with the distance alone; warm / FCL (below 1: all niches in less time than FCL's one distance) and FCL /
 // distance alone; mean niches; instants; answers that are off FCL's or not proven (wrong, 0 expected) and
 // instants that list fewer than 64 niches of which not all are proven to be found (incomplete, 0 expected);
+// of the instants that a cold solve saw, too, those at which it lists other niches (other, 0 expected);
 // memory of both bodies and of the tracker, kilobytes.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 
 #include "benchmark/support/benchmark_main.h"
 #include "benchmark/support/benchmark_pairs.h"
+#include "benchmark/support/circling_pair.h"
 #include "benchmark/support/result_table.h"
 #include "benchmark/support/statistics.h"
 #include "benchmark/support/stopwatch.h"
@@ -38,6 +45,7 @@ struct Row {
   std::vector<double> niches;
   int wrong = 0;
   int incomplete = 0;
+  int other = 0;
   std::size_t tracker_bytes = 0;
 };
 
@@ -48,22 +56,41 @@ TrackerParameters certified(bool niches_wanted) {
   return parameters;
 }
 
-void prepare(const BenchmarkPair& pair, Row& row) {
+/// @param share of the smaller body's diameter; 0: no cutoff
+TrackerParameters certifiedWithin(const BenchmarkPair& pair, double share) {
+  TrackerParameters parameters = certified(true);
+  if (share > 0.0) parameters.cutoff = share * std::min(pair.a->diameter(), pair.b->diameter());
+  return parameters;
+}
+
+std::vector<double> nicheDistances(const PairSolution& solution) {
+  std::vector<double> distances;
+  for (const TrackedNiche& niche : solution.niches) distances.push_back(niche.distance);
+  return distances;
+}
+
+bool areEqual(const std::vector<double>& l, const std::vector<double>& r, double tolerance) {
+  return std::equal(l.begin(), l.end(), r.begin(), r.end(),
+                    [&](double a, double b) { return std::abs(a - b) <= tolerance; });
+}
+
+void prepare(const BenchmarkPair& pair, const TrackerParameters& parameters, Row& row) {
   const auto start = std::chrono::steady_clock::now();
-  PreparationTask(pair.a, pair.b, certified(true)).run();
+  PreparationTask(pair.a, pair.b, parameters).run();
   row.prepare_ms = 1e-3 * microsecondsSince(start);
-  PairTracker tracker(pair.name, pair.a, pair.b, certified(true));
+  PairTracker tracker(pair.name, pair.a, pair.b, parameters);
   PairSolution solution;
   const auto first = std::chrono::steady_clock::now();
   tracker.update(pair.motion(0.0), 0.0, solution);
   row.first_list_ms = 1e-3 * microsecondsSince(first);
 }
 
-Row run(const BenchmarkPair& pair, int steps) {
+Row run(const BenchmarkPair& pair, int steps, double cutoff) {
   Row row;
-  prepare(pair, row);
-  PairTracker tracker(pair.name, pair.a, pair.b, certified(true));
-  PairTracker fresh(pair.name, pair.a, pair.b, certified(true));
+  const TrackerParameters parameters = certifiedWithin(pair, cutoff);
+  prepare(pair, parameters, row);
+  PairTracker tracker(pair.name, pair.a, pair.b, parameters);
+  PairTracker fresh(pair.name, pair.a, pair.b, parameters);
   PairTracker alone(pair.name, pair.a, pair.b, certified(false));
   fresh.prepare({pair.motion(0.0)});
   PairSolution solution;
@@ -97,8 +124,10 @@ Row run(const BenchmarkPair& pair, int steps) {
       row.alone_us.clear();
     }
     if (k % kStepsBetweenColdSolves != 0) continue;
+    const std::vector<double> tracked = nicheDistances(solution);
     take(row.cold_us, [&] { fresh.solve(pose, solution); });
     check();
+    row.other += areEqual(tracked, nicheDistances(solution), 1e-9 * size) ? 0 : 1;
     take(row.first_us, [&] { fresh.update(pose, 0.0, solution); });
     check();
     fresh.restart();
@@ -112,30 +141,44 @@ Row run(const BenchmarkPair& pair, int steps) {
 int benchmarkMain(int argc, char** argv) {
   CLI::App app("Tracked and cold solves beside FCL, one run, one thread");
   std::vector<std::string> names = allPairs();
-  int steps = 500;
+  std::vector<std::string> files;
+  std::vector<int> steps{500};
+  std::vector<double> cutoffs{0.0};
   std::string output;
   app.add_option("--pairs", names, "Pairs to run, or `simple`; all when left out")->delimiter(',');
-  app.add_option("--steps", steps, "Instants along each motion")->check(CLI::Range(2, 1000000));
+  app.add_option("--files", files, "Pairs of mesh files instead, a colon between two")->delimiter(',');
+  app.add_option("--steps", steps, "Instants along each motion")
+      ->delimiter(',')
+      ->check(CLI::Range(2, 1000000));
+  app.add_option("--cutoffs", cutoffs, "Shares of the smaller body's diameter; 0: none")
+      ->delimiter(',')
+      ->check(CLI::Range(0.0, 1e3));
   app.add_option("--output", output, "CSV file to write");
   CLI11_PARSE(app, argc, argv);
   if (names == std::vector<std::string>{"simple"}) names = simplePairs();
 
-  ResultTable table(
-      output,
-      "pair,triangles_a,triangles_b,prepare_ms,first_list_ms,fcl_us,cold_us,first_us,warm_us,warm_p99_us,"
-      "warm_over_fcl,"
-      "alone_us,alone_p99_us,fcl_over_alone,niches,instants,wrong,incomplete,bodies_kb,tracker_kb");
+  if (!files.empty()) names = files;
+
+  ResultTable table(output,
+                    "pair,steps,cutoff,triangles_a,triangles_b,prepare_ms,first_list_ms,fcl_us,cold_us,"
+                    "first_us,warm_us,warm_p99_us,warm_over_fcl,alone_us,alone_p99_us,fcl_over_alone,niches,"
+                    "instants,wrong,incomplete,other,bodies_kb,tracker_kb");
   for (const std::string& name : names) {
-    const BenchmarkPair pair = loadBenchmarkPair(name);
-    const Row row = run(pair, steps);
-    const double fcl = median(row.fcl_us);
-    const double warm = median(row.warm_us);
-    const double alone = median(row.alone_us);
-    table.add(name, pair.a->surface().triangleCount(), pair.b->surface().triangleCount(), row.prepare_ms,
-              row.first_list_ms, fcl, median(row.cold_us), median(row.first_us), warm,
-              percentile(row.warm_us, 0.99), warm / fcl, alone, percentile(row.alone_us, 0.99), fcl / alone,
-              mean(row.niches), steps, row.wrong, row.incomplete,
-              (pair.a->memoryBytes() + pair.b->memoryBytes()) / 1024, row.tracker_bytes / 1024);
+    const BenchmarkPair pair = files.empty() ? loadBenchmarkPair(name) : makeCirclingPair(name);
+    for (const int count : steps) {
+      for (const double cutoff : cutoffs) {
+        const Row row = run(pair, count, cutoff);
+        const double fcl = median(row.fcl_us);
+        const double warm = median(row.warm_us);
+        const double alone = median(row.alone_us);
+        table.add(pair.name, count, cutoff, pair.a->surface().triangleCount(),
+                  pair.b->surface().triangleCount(), row.prepare_ms, row.first_list_ms, fcl,
+                  median(row.cold_us), median(row.first_us), warm, percentile(row.warm_us, 0.99), warm / fcl,
+                  alone, percentile(row.alone_us, 0.99), fcl / alone, mean(row.niches), count, row.wrong,
+                  row.incomplete, row.other, (pair.a->memoryBytes() + pair.b->memoryBytes()) / 1024,
+                  row.tracker_bytes / 1024);
+      }
+    }
   }
   return 0;
 }

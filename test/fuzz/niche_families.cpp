@@ -262,6 +262,37 @@ NicheScene drawBumps(RandomEngine& engine) {
   return scene;
 }
 
+/// The face of a tetrahedron above a block whose top leans down by 1e-9 to 1e-4 towards a groove or a pit of
+/// 1e-7 to 0.05 in the middle: both sides support the hull and tie within the lean, and the way between them
+/// rises by the depth.
+NicheScene drawDents(RandomEngine& engine) {
+  const double lean = powerOfTen(engine, -9.0, -4.0);
+  const double depth = powerOfTen(engine, -6.0, -1.3);
+  const bool is_pit = uniformIndex(engine, 3) == 0;
+  const double place = 0.25 * static_cast<double>(uniformIndex(engine, 3)) - 0.25;
+  const SurfaceMesh block = halvedEdges(halvedEdges(makeCuboid({-0.5, -0.5, -1.0}, {0.5, 0.5, 0.0})));
+  const SurfaceMesh a = withVertices(block, "dents", [&](const Vector3d& v) {
+    if (v.z() != 0.0) return v;
+    const bool is_dent = v.x() == place && (!is_pit || v.y() == 0.0);
+    return Vector3d(v - (lean * (0.5 - std::abs(v.x())) + (is_dent ? depth : 0.0)) * Vector3d::UnitZ());
+  });
+  const SurfaceMesh plate = makeSurface({{-2, -2, 0}, {2, -2, 0}, {0, 3, 0}, {0, 0, 1}},
+                                        {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}});
+  NicheScene scene{a, plate, {Isometry3d::Identity()}};
+  // Towards the dents, or to where they are farther away.
+  const double turn = uniformIndex(engine, 3) == 0 ? 0.0 : lean * powerOfTen(engine, -4.0, 2.0);
+  Vector3d up = Vector3d::UnitZ() + turn * (Vector3d::UnitX() + uniformInCube(engine, 0.3));
+  const bool is_away = uniformIndex(engine, 2) == 0;
+  if (is_away) up = Vector3d::UnitZ() + uniformInCube(engine, 1.0);
+  up.normalize();
+  double reach = 0.0;
+  for (const Vector3d& v : a.vertices()) reach = std::max(reach, up.dot(v));
+  scene.poses.front() = Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), up) *
+                        Eigen::Translation3d(0.0, 0.0, reach + powerOfTen(engine, -4.0, -0.5));
+  walk(engine, is_away ? 1e-2 : lean, false, scene);
+  return scene;
+}
+
 /// At distances at which the surfaces' gaps to their hulls decide whether there is a second niche.
 NicheScene drawNearlyConvex(RandomEngine& engine) {
   if (uniformIndex(engine, 2) == 0) return drawBumps(engine);
@@ -314,6 +345,7 @@ const std::vector<NicheFamily>& nicheFamilies() {
       {"unions", "unions of convex solids that cross each other", affordable<drawUnions>},
       {"concave", "random concave solids", affordable<drawConcave>},
       {"nearly_convex", "solids with dents and bumps of 1e-15 to 0.3", affordable<drawNearlyConvex>},
+      {"dents", "a face above a block whose halves tie beside a groove or pit", affordable<drawDents>},
       {"rings", "rings with lobes: many niches", affordable<drawRings>},
       {"overlap", "rods through plates, combs, rings, hollow bodies, sheets, unions",
        affordable<drawOverlap>}};

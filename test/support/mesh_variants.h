@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/random_engine.h"
+#include "concave_distance/mesh/surface/primitives.h"
 #include "concave_distance/mesh/surface/surface_mesh.h"
 
 /// The same surface in other words: moved, scaled, with other numbers for its vertices and triangles.
@@ -76,6 +77,19 @@ inline SurfaceMesh relabelledSurface(const SurfaceMesh& mesh, RandomEngine& engi
   }
   shuffle(triangles, engine);
   return SurfaceMesh(std::move(vertices), std::move(triangles), "relabelled");
+}
+
+/// A sphere's mesh stretched to half axes, with every so many vertices pushed in by a share of their distance
+/// from the centre.
+inline SurfaceMesh makeDentedEllipsoid(const Eigen::Vector3d& half_axes, double sag, double depth,
+                                       std::size_t every) {
+  const SurfaceMesh ball = makeSphere(1.0, sag);
+  std::vector<Eigen::Vector3d> vertices;
+  for (const Eigen::Vector3d& vertex : ball.vertices()) {
+    const double share = vertices.size() % every == 0 ? 1.0 - depth : 1.0;
+    vertices.push_back(share * half_axes.cwiseProduct(vertex));
+  }
+  return SurfaceMesh(std::move(vertices), ball.triangles(), "dented ellipsoid");
 }
 
 }  // namespace concave_distance::test

@@ -103,6 +103,41 @@ TEST(ConvexPairs, AreSearchedWhereADentMayHoldASecondNicheAndKeepTheirIds) {
   EXPECT_GT(known, 10);
 }
 
+// Pairs of features of which neither is beside a dent are left out: the list is the same as that of all
+// cones, which a request for hidden niches goes through, and takes a fraction of the comparisons.
+TEST(ConvexPairs, WithDentsThatAreAwayAreLookedThroughBesideThemAlone) {
+  const auto a = makeBody(makeDentedEllipsoid({0.4, 0.3, 0.5}, 2e-3, 5e-3, 149));
+  const auto b = makeBody(makeDentedEllipsoid({0.3, 0.3, 0.2}, 2e-3, 5e-3, 149));
+  TrackerParameters usual;
+  usual.search_share = 0.0;  // evaluations are comparisons of cones then
+  TrackerParameters all = usual;
+  all.hidden = true;
+  PairTracker tracker("dents", a, b, usual);
+  PairTracker of_all_cones("all cones", a, b, all);
+  PairSolution solution;
+  PairSolution expected;
+  std::uint64_t evaluations = 0;
+  std::uint64_t expected_evaluations = 0;
+  for (int k = 0; k < 60; ++k) {
+    const Isometry3d pose = at({0.75 + 0.02 * std::sin(0.2 * k), 0.1, 0.1}, 0.05 * k);
+    tracker.update(pose, 0.01 * k, solution);
+    of_all_cones.update(pose, 0.01 * k, expected);
+    ASSERT_EQ(solution.status, SolveStatus::Ok);
+    ASSERT_TRUE(solution.niches_complete);
+    std::vector<double> visible;
+    for (const TrackedNiche& niche : expected.niches) {
+      if (niche.visible) visible.push_back(niche.distance);
+    }
+    ASSERT_EQ(solution.niches.size(), visible.size()) << "cycle " << k;
+    for (std::size_t i = 0; i < visible.size(); ++i) {
+      EXPECT_NEAR(solution.niches[i].distance, visible[i], 1e-12) << "cycle " << k;
+    }
+    evaluations += solution.cost.evaluations;
+    expected_evaluations += expected.cost.evaluations;
+  }
+  EXPECT_LT(2 * evaluations, expected_evaluations);
+}
+
 TEST(ConvexPairs, AreSearchedWhereHiddenNichesOrThoseOfFarSidesAreWanted) {
   for (const bool hidden : {true, false}) {
     TrackerParameters parameters;

@@ -120,14 +120,17 @@ class BodyMesh {
   const ConnectedPieces& pieces() const;
   /// Returns how far the surface lies below its convex hull. Measured at the first call, for all threads.
   const HullGap& hullGap() const;
+  /// Marks the groups of normalCones(NormalSides::Outside) that hold a feature beside a dent of a nearly
+  /// convex surface, by slot; empty for other surfaces. Made at the first call, for all threads.
+  const std::vector<bool>& dentedGroups() const;
   /// Returns the convex solids that the body is the union of, if it is. Made at the first call, for all
   /// threads.
   const ConvexShells& convexShells() const;
   /// Returns the cones that level `certified` finds niches by. They are built at the first call for each of
   /// the two, for all threads; about 450 bytes a triangle.
   const NormalConeTree& normalCones(NormalSides sides) const;
-  /// Makes what the niches of level `certified` need, in parallel: normalCones(sides), adjacency(), pieces()
-  /// and hullGap(). Afterwards none of them is waited for.
+  /// Makes what the niches of level `certified` need, in parallel: normalCones(sides), adjacency(), pieces(),
+  /// hullGap() and dentedGroups(). Afterwards none of them is waited for.
   void prepareNiches(NormalSides sides) const;
 
   /// The grid of the search (BodyGrid); nullptr before its first use.

@@ -6,6 +6,7 @@
 
 #include "base/expiry_queue.h"
 #include "cone_comparison.h"
+#include "dented_pairs.h"
 #include "feature_slacks.h"
 #include "minimum_slacks.h"
 #include "sweep_lists.h"
@@ -17,13 +18,14 @@ namespace concave_distance::detail {
 class ConeSweep {
  public:
   /// @param slice_room pairs, after which it ends: for a slice, whose lists have all the room they get
-  ConeSweep(const PairFrame& frame, NormalSides sides, double cutoff, const MovedDistances& motion,
+  ConeSweep(const PairFrame& frame, ConeChoice choice, double cutoff, const MovedDistances& motion,
             SweepLists& lists, WorkLimit& limit, std::size_t slice_room = 0)
       : motion_(motion),
         features_(frame, cutoff),
         feature_slacks_(features_),
         minimum_slacks_(features_),
-        cones_(frame, features_, sides),
+        cones_(frame, features_, choice.sides),
+        dents_(frame, choice),
         offers_(motion),
         lists_(lists),
         limit_(limit),
@@ -159,6 +161,7 @@ class ConeSweep {
       const Slot slot = opened + lane;
       if (tree.child(slot) == NormalConeTree::kNoChild) break;
       const SlotPair child{opens_b ? a : slot, opens_b ? slot : b};
+      if (dents_.leavesOut(child)) continue;
       if (isFeaturePair(child) &&
           !FeaturePairs::isWanted(itemOfA(child.first).kind, itemOfB(child.second).kind)) {
         continue;
@@ -259,6 +262,7 @@ class ConeSweep {
   FeatureSlacks feature_slacks_;
   MinimumSlacks minimum_slacks_;
   ConeComparison cones_;
+  DentedPairs dents_;
   SlackOffers offers_;
   SweepLists& lists_;
   WorkLimit& limit_;

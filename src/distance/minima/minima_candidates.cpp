@@ -4,14 +4,15 @@
 
 namespace concave_distance::detail {
 
-void collectConeCandidates(const PairFrame& frame, NormalSides sides, double cutoff,
+void collectConeCandidates(const PairFrame& frame, ConeChoice choice, double cutoff,
                            std::vector<MinimumCandidate>& candidates, LocalMinimaCost& cost,
                            WorkLimit& limit) {
   constexpr std::uint32_t kWidth = ConeComparison::kWidth;
   const FeaturePairs features(frame, cutoff);
-  ConeComparison cones(frame, features, sides);
+  ConeComparison cones(frame, features, choice.sides);
+  const DentedPairs dents(frame, choice);
   if (cones.a.empty() || cones.b.empty()) return;
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> open{{NormalConeTree::kRoot, NormalConeTree::kRoot}};
+  std::vector<SlotPair> open{{NormalConeTree::kRoot, NormalConeTree::kRoot}};
   while (!open.empty()) {
     if (limit.isOverNow() || !limit.makeRoom(open, kWidth) || !limit.makeRoom(candidates)) return;
     const auto [a, b] = open.back();
@@ -38,7 +39,8 @@ void collectConeCandidates(const PairFrame& frame, NormalSides sides, double cut
     for (std::uint32_t lane = 0; lane < kWidth; ++lane) {
       const std::uint32_t slot = opened + lane;
       if (excluded[lane] > 0.0F || tree.child(slot) == NormalConeTree::kNoChild) continue;
-      open.emplace_back(opens_b ? a : slot, opens_b ? slot : b);
+      const SlotPair child{opens_b ? a : slot, opens_b ? slot : b};
+      if (!dents.leavesOut(child)) open.push_back(child);
     }
   }
 }

@@ -23,15 +23,15 @@ void append(std::vector<T>& to, const std::vector<T>& from, WorkLimit& limit) {
 /// One call of collect().
 class MinimaTracker::Stage {
  public:
-  Stage(MinimaTracker& front, const PairFrame& frame, NormalSides sides, double cutoff, WorkLimit& limit,
+  Stage(MinimaTracker& front, const PairFrame& frame, ConeChoice choice, double cutoff, WorkLimit& limit,
         std::size_t most_comparisons)
       : front_(front),
         frame_(frame),
-        sides_(sides),
+        choice_(choice),
         cutoff_(cutoff),
         limit_(limit),
         most_comparisons_(most_comparisons),
-        sweep_(frame, sides, cutoff, front.motion_, front.lists_, limit) {
+        sweep_(frame, choice, cutoff, front.motion_, front.lists_, limit) {
     sweep_.keepIn(front.queues_, limit);
   }
 
@@ -128,7 +128,7 @@ class MinimaTracker::Stage {
     const WorkLimit time = limit_.withoutMemory();
     const auto look = [&](std::size_t i) {
       WorkLimit own = time;
-      ConeSweep sweep(frame_, sides_, cutoff_, front_.motion_, slices[i].lists, own, ConeSlices::kMostKept);
+      ConeSweep sweep(frame_, choice_, cutoff_, front_.motion_, slices[i].lists, own, ConeSlices::kMostKept);
       // One thread inserts in the same order without a buffer.
       if (threads == 1) sweep.keepIn(front_.queues_, limit_);
       std::size_t steps = std::numeric_limits<std::size_t>::max();
@@ -155,24 +155,24 @@ class MinimaTracker::Stage {
 
   MinimaTracker& front_;
   const PairFrame& frame_;
-  NormalSides sides_;
+  ConeChoice choice_;
   double cutoff_;
   WorkLimit& limit_;
   std::size_t most_comparisons_;
   ConeSweep sweep_;
 };
 
-bool MinimaTracker::collect(const PairFrame& frame, NormalSides sides, double cutoff,
+bool MinimaTracker::collect(const PairFrame& frame, ConeChoice choice, double cutoff,
                             std::vector<MinimumCandidate>& candidates, WorkLimit& limit,
                             std::size_t most_comparisons) {
   counts_ = {};
-  Stage stage(*this, frame, sides, cutoff, limit, most_comparisons);
+  Stage stage(*this, frame, choice, cutoff, limit, most_comparisons);
   if (stage.isEmpty()) return true;
   lists_.groups = lists_.features = lists_.measured = 0;
   lists_.candidates.swap(candidates);
-  valid_ = valid_ && cutoff == cutoff_ && sides == sides_ && motion_.advance(frame);
+  valid_ = valid_ && cutoff == cutoff_ && choice == choice_ && motion_.advance(frame);
   cutoff_ = cutoff;
-  sides_ = sides;
+  choice_ = choice;
   bool done = true;
   if (!valid_) {
     stage.begin();

@@ -7,6 +7,7 @@
 
 #include "base/expiry_queue.h"
 #include "cone_slices.h"
+#include "dented_pairs.h"
 #include "distance/kernels/pair_frame.h"
 #include "moved_distances.h"
 #include "sweep_lists.h"
@@ -16,7 +17,7 @@ namespace concave_distance::detail {
 /// Keeps what the last pose of a pair leaves to be looked at in the next one: every pair of cone groups, or
 /// of features, that holds no local minimum is kept with the motion that it stays so for. At every instant
 /// each pair of features has exactly one ancestor that is kept, or is live. Belongs to one pair of bodies,
-/// one cutoff and one choice of sides.
+/// one cutoff and one choice of cones.
 class MinimaTracker {
  public:
   /// Counts what one call did.
@@ -46,7 +47,7 @@ class MinimaTracker {
   /// Appends at least one triangle pair of every local minimum between 0 and `cutoff` (metres).
   /// @param most_comparisons after which it ends, too
   /// @return false when the limit was reached: minima may be missing, and the next call goes on
-  bool collect(const PairFrame& frame, NormalSides sides, double cutoff,
+  bool collect(const PairFrame& frame, ConeChoice choice, double cutoff,
                std::vector<MinimumCandidate>& candidates, WorkLimit& limit,
                std::size_t most_comparisons = std::numeric_limits<std::size_t>::max());
   /// Returns whether it has grown so much since it was begun that it looks at needlessly small groups.
@@ -89,7 +90,7 @@ class MinimaTracker {
   std::size_t kept_at_begin_ = 0;
   bool valid_ = false;
   double cutoff_ = 0.0;
-  NormalSides sides_ = NormalSides::Outside;
+  ConeChoice choice_;
   Counts counts_;
 };
 

@@ -12,8 +12,9 @@ namespace {
 /// Less work than this is always done to renew a front, in comparisons.
 constexpr std::size_t kLeastRenewed = 8192;
 
-NormalSides sidesOf(const LocalMinimaRequest& request) {
-  return request.through_material ? NormalSides::Both : NormalSides::Outside;
+ConeChoice conesOf(const LocalMinimaRequest& request) {
+  return {request.through_material ? NormalSides::Both : NormalSides::Outside,
+          request.nearest_beside_dents != nullptr};
 }
 
 }  // namespace
@@ -82,14 +83,18 @@ bool CandidateCollector::collectMinima(const PairFrame& frame, const LocalMinima
     case ConvexShellPairs::Outcome::Unknown:
       break;
   }
-  const NormalSides sides = sidesOf(request);
+  const ConeChoice cones = conesOf(request);
+  if (request.nearest_beside_dents != nullptr) {
+    if (!limit.makeRoom(candidates)) return false;
+    candidates.push_back(*request.nearest_beside_dents);
+  }
   if (request.is_tracked) {
-    const bool done = front_.collect(frame, sides, request.cutoff, candidates, limit);
+    const bool done = front_.collect(frame, cones, request.cutoff, candidates, limit);
     cost.node_pairs += front_.counts().groups;
     cost.feature_pairs += front_.counts().features;
     return done;
   }
-  collectConeCandidates(frame, sides, request.cutoff, candidates, cost, limit);
+  collectConeCandidates(frame, cones, request.cutoff, candidates, cost, limit);
   return !limit.isOver();
 }
 
@@ -100,7 +105,7 @@ void CandidateCollector::renew(const PairFrame& frame, const LocalMinimaRequest&
   const std::size_t most = std::max(kLeastRenewed, front_.counts().comparisons());
   next_candidates_.clear();
   const bool is_whole =
-      next_front_.collect(frame, sidesOf(request), request.cutoff, next_candidates_, own, most);
+      next_front_.collect(frame, conesOf(request), request.cutoff, next_candidates_, own, most);
   cost.node_pairs += next_front_.counts().groups;
   cost.feature_pairs += next_front_.counts().features;
   if (!is_whole) return;

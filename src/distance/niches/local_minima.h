@@ -39,6 +39,9 @@ struct LocalMinimaRequest {
     const MinimumCandidate* niche;
   };
   std::optional<Known> known;
+  /// The closest points, where every other niche has an end beside a dent of its nearly convex body
+  /// (ConvexNiches::TheNearestAndDents); nullptr: niches may be anywhere.
+  const MinimumCandidate* nearest_beside_dents = nullptr;
   /// Triangle pairs whose niches are asked for (LocalMinima::owners), e.g. those that a search has found:
   /// descended to the local minimum around them.
   std::vector<std::pair<TriangleIndex, TriangleIndex>> asked_pairs;

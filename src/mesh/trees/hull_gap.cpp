@@ -10,6 +10,7 @@
 #include "base/exact_orientation.h"
 #include "base/triangle_measures.h"
 #include "mesh/surface/surface_moments.h"
+#include "normal_cone.h"
 
 namespace concave_distance {
 namespace {
@@ -62,14 +63,25 @@ class GapMeasure {
     rounding_ = kRounding * (mesh.diameter() + centre.cwiseAbs().maxCoeff());
   }
 
-  double measure() {
+  HullGap measure() {
     half_spaces_.resize(mesh_.triangleCount());
-    double gap = 0.0;
+    HullGap measured;
+    measured.gap = 0.0;
+    measured.shallow = kShallowGap * mesh_.diameter();
+    measured.behind.resize(mesh_.triangleCount());
     for (std::size_t t = 0; t < mesh_.triangleCount(); ++t) {
-      gap = std::max(gap, gapOver(t));
-      if (!(gap <= widest_)) return kInfinite;
+      const double gap = gapOver(t);
+      if (!(gap <= widest_)) return {};
+      measured.gap = std::max(measured.gap, gap);
+      measured.behind[t] = !(heightOver(t) <= measured.shallow);
+      if (gap > measured.shallow) measured.dents.push_back({TriangleIndex{t}, gap});
     }
-    return gap;
+    const auto behind = std::count(measured.behind.begin(), measured.behind.end(), true);
+    if (4 * static_cast<std::size_t>(behind) > mesh_.triangleCount()) {
+      measured.behind.clear();
+      measured.dents.clear();
+    }
+    return measured;
   }
 
  private:
@@ -82,6 +94,17 @@ class GapMeasure {
       gap = std::min(gap, gapBelow(halfSpace(next.value), t));
     }
     return gap;
+  }
+
+  /// Bounds how far the surface reaches over the triangle's plane, whatever the rounding of its normal.
+  double heightOver(std::size_t t) {
+    const HalfSpace& half_space = halfSpace(t);
+    double least = kInfinite;
+    for (const Vector3d& corner : cornersOf(mesh_, t)) {
+      least = std::min(least, half_space.normal.dot(corner - centre_));
+    }
+    return half_space.most - least + rounding_ +
+           detail::normalError(mesh_, TriangleIndex{t}) * mesh_.diameter();
   }
 
   /// Bounds the way from the triangle's points out of a half-space along the rays through them. It is convex
@@ -150,10 +173,10 @@ class GapMeasure {
 }  // namespace
 
 HullGap measureHullGap(const SurfaceMesh& mesh, const MeshTopology& topology, const TriangleTree& tree) {
-  if (!topology.allShellsClosed()) return {kInfinite};
+  if (!topology.allShellsClosed()) return {};
   const Vector3d centre = centreOf(mesh);
-  if (!isStarShaped(mesh, centre)) return {kInfinite};
-  return {GapMeasure(mesh, topology, tree, centre).measure()};
+  if (!isStarShaped(mesh, centre)) return {};
+  return GapMeasure(mesh, topology, tree, centre).measure();
 }
 
 }  // namespace concave_distance

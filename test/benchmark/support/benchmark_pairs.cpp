@@ -12,6 +12,7 @@
 #include "concave_distance/mesh/surface/primitives.h"
 #include "loading/query_poses.h"
 #include "support/concave_shapes.h"
+#include "support/mesh_variants.h"
 
 namespace concave_distance::benchmark {
 namespace {
@@ -158,14 +159,6 @@ Eigen::Isometry3d combPose(double t) {
                 rotation);
 }
 
-/// A sphere's mesh stretched to half axes: convex.
-SurfaceMesh makeEllipsoid(const Eigen::Vector3d& half_axes, double sag) {
-  const SurfaceMesh ball = makeSphere(1.0, sag);
-  std::vector<Eigen::Vector3d> vertices;
-  for (const Eigen::Vector3d& vertex : ball.vertices()) vertices.push_back(half_axes.cwiseProduct(vertex));
-  return SurfaceMesh(std::move(vertices), ball.triangles(), "ellipsoid");
-}
-
 SurfaceMesh put(const SurfaceMesh& surface, double x, double y, double z) {
   return moved(surface, poseOf({x, y, z}, Eigen::Quaterniond::Identity()));
 }
@@ -253,12 +246,20 @@ const std::vector<Recipe>& recipes() {
        })},
       {"hulls_1k",
        [] {
-         return Surfaces{makeEllipsoid({0.2, 0.15, 0.3}, 6e-3), makeEllipsoid({0.25, 0.2, 0.1}, 6e-3)};
+         return Surfaces{test::makeDentedEllipsoid({0.2, 0.15, 0.3}, 6e-3, 0.0, 1),
+                         test::makeDentedEllipsoid({0.25, 0.2, 0.1}, 6e-3, 0.0, 1)};
        },
        swinging(0.6, 0.1)},
       {"hulls_6k",
        [] {
-         return Surfaces{makeEllipsoid({0.2, 0.15, 0.3}, 1e-3), makeEllipsoid({0.25, 0.2, 0.1}, 1e-3)};
+         return Surfaces{test::makeDentedEllipsoid({0.2, 0.15, 0.3}, 1e-3, 0.0, 1),
+                         test::makeDentedEllipsoid({0.25, 0.2, 0.1}, 1e-3, 0.0, 1)};
+       },
+       swinging(0.6, 0.1)},
+      {"hulls_with_dents",
+       [] {
+         return Surfaces{test::makeDentedEllipsoid({0.2, 0.15, 0.3}, 1e-3, 5e-3, 149),
+                         test::makeDentedEllipsoid({0.25, 0.2, 0.1}, 1e-3, 5e-3, 149)};
        },
        swinging(0.6, 0.1)},
       {"boxes_overlap",
@@ -288,7 +289,7 @@ const std::vector<Recipe>& recipes() {
 }  // namespace
 
 std::vector<std::string> simplePairs() {
-  return {"hulls_1k",        "hulls_6k",         "boxes_overlap",
+  return {"hulls_1k",        "hulls_6k",         "hulls_with_dents",  "boxes_overlap",
           "spheres_overlap", "primitives_apart", "primitives_overlap"};
 }
 

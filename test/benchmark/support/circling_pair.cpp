@@ -1,6 +1,7 @@
 #include "benchmark/support/circling_pair.h"
 
 #include <algorithm>
+#include <filesystem>
 
 #include "concave_distance/loading/load_body_mesh.h"
 
@@ -48,6 +49,14 @@ BenchmarkPair makeCirclingPair(const std::string& name, const std::string& file_
   radius *= 1.02;
   pair.motion = [=](double t) { return circling(t, radius, centre_a, centre_b); };
   return pair;
+}
+
+BenchmarkPair makeCirclingPair(const std::string& files) {
+  const std::size_t colon = files.find(':');
+  const auto stem = [](const std::string& path) { return std::filesystem::path(path).stem().string(); };
+  const std::string file_a = files.substr(0, colon);
+  const std::string file_b = colon == std::string::npos ? file_a : files.substr(colon + 1);
+  return makeCirclingPair(stem(file_a) + "-" + stem(file_b), file_a, file_b);
 }
 
 }  // namespace concave_distance::benchmark

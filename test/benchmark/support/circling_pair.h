@@ -13,4 +13,7 @@ namespace concave_distance::benchmark {
 BenchmarkPair makeCirclingPair(const std::string& name, const std::string& file_a, const std::string& file_b,
                                std::optional<double> max_edge_length = std::nullopt);
 
+/// Makes it of two files with a colon between them, named after both.
+BenchmarkPair makeCirclingPair(const std::string& files);
+
 }  // namespace concave_distance::benchmark

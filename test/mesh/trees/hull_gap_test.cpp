@@ -117,6 +117,32 @@ TEST(HullGap, IsThatOfADent) {
   }
 }
 
+TEST(HullGap, TellsWhatIsBehindFromWhatSupportsTheHull) {
+  for (const double depth : {1e-7, 1e-5, 1e-3, 2e-2}) {
+    const SurfaceMesh mesh = makeDentedEllipsoid({0.4, 0.3, 0.5}, 2e-3, depth, 97);
+    const HullGap measured = gapOf(mesh);
+    ASSERT_EQ(measured.behind.size(), mesh.triangleCount()) << depth;
+    std::size_t behind = 0;
+    for (std::size_t t = 0; t < mesh.triangleCount(); ++t) {
+      const WideVector p = mesh.corner(TriangleIndex{t}, 0).cast<long double>();
+      const WideVector normal = (mesh.corner(TriangleIndex{t}, 1).cast<long double>() - p)
+                                    .cross(mesh.corner(TriangleIndex{t}, 2).cast<long double>() - p)
+                                    .normalized();
+      long double over = 0.0L;
+      for (const Vector3d& v : mesh.vertices()) over = std::max(over, normal.dot(v.cast<long double>() - p));
+      if (std::abs(static_cast<double>(over) - measured.shallow) < 1e-9) continue;
+      EXPECT_EQ(measured.behind[t], static_cast<double>(over) > measured.shallow) << depth << ' ' << t;
+      behind += measured.behind[t] ? 1 : 0;
+    }
+    EXPECT_EQ(behind > 0, depth > 1e-4) << depth << ": the ball bulges by more than the shallow pits";
+    EXPECT_LT(behind, mesh.triangleCount() / 4);
+    for (const HullGap::Dent& dent : measured.dents) EXPECT_LE(dent.gap, measured.gap);
+    EXPECT_EQ(measured.dents.empty(), behind == 0) << depth;
+  }
+  EXPECT_TRUE(gapOf(makeDentedEllipsoid({0.4, 0.3, 0.5}, 2e-3, 1e-2, 4)).behind.empty())
+      << "more dents than hull";
+}
+
 TEST(HullGap, IsInfiniteForWhatIsNotNearlyConvex) {
   const SurfaceMesh cube = makeCuboid({-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5});
   EXPECT_TRUE(std::isinf(gapOf(makeOpened(cube, 1)).gap)) << "open";
