@@ -78,9 +78,9 @@ void DepthSlope::collectDirections(const Surface& other, const Eigen::Vector3d& 
       return (known.out - out).norm() <= kSameDirection;
     });
     if (same != directions_.end()) {
-      if (distance < same->distance) *same = {distance, out, {}};
+      if (distance < same->distance) *same = {distance, out, Eigen::Vector2d::Zero()};
     } else if (directions_.size() < 4 * kMostWalls) {
-      directions_.push_back({distance, out, {}});
+      directions_.push_back({distance, out, Eigen::Vector2d::Zero()});
     }
   };
   forEachWithin(other.body, in_body, reach, add);

@@ -26,8 +26,8 @@ class DepthSlope {
  private:
   struct Direction {
     double distance;
-    Eigen::Vector3d out;     ///< unit, to the closest point of a wall
-    Eigen::Vector2d across;  ///< along the surface that the point can give way on
+    Eigen::Vector3d out;                               ///< unit, to the closest point of a wall
+    Eigen::Vector2d across = Eigen::Vector2d::Zero();  ///< along the surface that the point can give way on
   };
   void collectDirections(const Surface& other, const Eigen::Vector3d& point, double reach);
   /// Returns the number of directions in which the surface goes on both ways, which `along` begins with.

@@ -26,7 +26,7 @@ class LeastOfLinear {
 
  private:
   struct Polygon {
-    std::array<Eigen::Vector3d, kMost + 3> corners;
+    std::array<Eigen::Vector3d, 2 * kMost> corners;  ///< each function adds one, but for roundings
     std::size_t count = 0;
   };
   void cutOff(const Eigen::Vector3d& function, const Eigen::Vector3d& other);

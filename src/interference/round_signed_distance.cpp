@@ -1,9 +1,9 @@
 #include "round_signed_distance.h"
 
+#include "distance/kernels/round_kernels.h"
 #include "mesh/surface/mesh_topology.h"
 #include "mesh/surface/round_geometry.h"
 #include "mesh/trees/triangle_tree.h"
-#include "round_lines.h"
 
 namespace concave_distance::detail {
 namespace {

@@ -12,6 +12,8 @@
 namespace concave_distance {
 namespace {
 
+using detail::PairFrame;
+
 // Metres for a metre of the smaller body: how exact the greatest depth is.
 constexpr double kTolerance = 2.5e-10;
 constexpr std::size_t kNoRegion = std::numeric_limits<std::size_t>::max();

@@ -274,6 +274,13 @@ TEST(SignedValues, OfABoxInAPlateIsItsDepthLessTheMargins) {
     EXPECT_NEAR((niche.signed_place.gradient_in_a - Vector3d::UnitZ()).norm(), 0.0, 1e-12);
     EXPECT_EQ(niche.signed_place.since_cycle, 0U);
   }
+  // A pair that stands still keeps its answer.
+  const SignedPlace before = solution.niches.front().signed_place;
+  tracker.update(solution.a_from_b, 1.0, solution);
+  ASSERT_EQ(solution.niches.size(), 1U);
+  EXPECT_EQ(solution.niches.front().signed_place.value, before.value);
+  EXPECT_EQ(solution.niches.front().signed_place.gradient_in_a, before.gradient_in_a);
+  EXPECT_EQ(solution.niches.front().signed_place.since_cycle, 0U);
 }
 
 /// A table with a long and a short leg, at x = 0 and 0.6 of 0.8.
