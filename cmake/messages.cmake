@@ -2,6 +2,8 @@
 set(CONCAVE_DISTANCE_MESSAGES
   Alert.msg
   BodyInfo.msg
+  Constraint.msg
+  Constraints.msg
   Contact.msg
   Contacts.msg
   DistanceQuery.msg
@@ -45,7 +47,7 @@ if(CONCAVE_DISTANCE_SERVICES)
   add_service_files(FILES ${CONCAVE_DISTANCE_SERVICES})
 endif()
 if(CONCAVE_DISTANCE_MESSAGES OR CONCAVE_DISTANCE_SERVICES)
-  generate_messages(DEPENDENCIES geometry_msgs shape_msgs std_msgs)
+  generate_messages(DEPENDENCIES geometry_msgs sensor_msgs shape_msgs std_msgs)
 endif()
 if(CONCAVE_DISTANCE_DYNAMIC_RECONFIGURE)
   generate_dynamic_reconfigure_options(${CONCAVE_DISTANCE_DYNAMIC_RECONFIGURE})

@@ -1,7 +1,7 @@
 // Tracks the links of a robot without ROS: the nearest pair at every step of a motion of one joint.
 //   track_robot robot.urdf [folder with its meshes ...]
+#include <concave_distance/kinematics/scene_kinematics.h>
 #include <concave_distance/loading/load_scene.h>
-#include <concave_distance/loading/robot_poses.h>
 #include <concave_distance/scene/scene_tracker.h>
 
 #include <cstdio>
@@ -23,15 +23,19 @@ int main(int argc, char** argv) try {
   const Scene scene = loadRobotScene(urdf, argv[1], options);
   for (const SceneProblem& problem : scene.problems)
     std::printf("%s: %s\n", problem.where.c_str(), problem.message.c_str());
-  const RobotPoses robot(urdf, argv[1]);
-  const std::vector<std::string> joints = robot.jointNames();
-  if (joints.empty()) throw std::runtime_error("no joint of the robot moves");
-  const std::string& joint = joints[joints.size() / 2];
+  const SceneKinematics joints(scene);
+  SceneState state = joints.startState();
+  Eigen::VectorXd positions = joints.restPositions();
+  if (positions.size() == 0) throw std::runtime_error("no joint of the robot moves");
+  const Eigen::Index moved = positions.size() / 2;
+  const std::string& joint = joints.positionNames()[static_cast<std::size_t>(moved)];
 
   SceneTracker tracker;
   tracker.setScene(scene);
   for (int step = 0; step < 50; ++step) {
-    tracker.update(robot.of(scene, {{joint, 0.02 * step}}), 0.02 * step);
+    positions[moved] = 0.02 * step;
+    joints.evaluate(positions, state);
+    tracker.update(state.world_from_body, 0.02 * step);
     const TrackedPair* nearest = nullptr;
     for (const auto& pair : tracker.pairs()) {
       if (!pair->solved()) continue;  // its status is in pair->state

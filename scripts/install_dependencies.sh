@@ -30,10 +30,12 @@ set -euo pipefail
     git locales  # the record of results; a locale with decimal commas
     python3-yaml  # digests of experiments in the test `results`
     python3-rosmaster python3-rospy python3-tf2-msgs python3-rosgraph-msgs python3-dynamic-reconfigure  # scripts/faults.sh
+    python3-sensor-msgs  # pick_parts.py
   )
   debian_demo=(
     python3-roslaunch python3-rospy python3-rosservice python3-rostopic rosbash rviz ros-robot-state-publisher
     python3-rospkg python3-tf2-ros python3-yaml  # scripts/view_robot.py
+    python3-sensor-msgs python3-tf2-msgs  # pick_parts.py, move_crowd.py
     python3-geometry-msgs python3-shape-msgs python3-std-msgs python3-std-srvs python3-visualization-msgs python3-diagnostic-msgs  # what ours are made of
   )
   debian_plot=(python3-matplotlib python3-yaml valgrind)
@@ -57,7 +59,7 @@ set -euo pipefail
   noetic_test=(git locales python3-yaml libgtest-dev libfcl-dev libboost-dev libbenchmark-dev ros-noetic-rostest ros-noetic-rosmaster ros-noetic-rospy ros-noetic-tf2-msgs)
   noetic_demo=(
     ros-noetic-roslaunch ros-noetic-rospy ros-noetic-rosservice ros-noetic-rostopic ros-noetic-rosbash ros-noetic-rviz
-    ros-noetic-robot-state-publisher
+    ros-noetic-robot-state-publisher ros-noetic-tf2-msgs
     python3-rospkg python3-yaml  # scripts/view_robot.py
   )
   noetic_plot=(python3-matplotlib python3-yaml valgrind)

@@ -112,7 +112,7 @@ for scene in "${scenes[@]}"; do
       measure "one pair, poses at 500 Hz, cycles at 2000 Hz" distances -1 insertion.launch rate:=2000 pose_rate:=500
       ;;
     robot) measure "robot scene at 50 Hz" niches -1 robot.launch rate:=50 pose_rate:=50 cycle_budget:="$cycle_budget" ;;
-    cell) measure "cell at 50 Hz" niches -1 cell.launch rate:=50 pose_rate:=50 cycle_budget:="$cycle_budget" ;;
+    cell) measure "cell at 50 Hz" niches -1 cell.launch pick:=false rate:=50 pose_rate:=50 cycle_budget:="$cycle_budget" ;;
     robot_all)
       measure "robot scene at 50 Hz, no cutoff: all 35 pairs solved" niches 1000 robot.launch rate:=50 pose_rate:=50 cycle_budget:="$cycle_budget"
       ;;

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "concave_distance/base/error.h"
+#include "kinematics/wording.h"
 #include "scene/name_pattern.h"
-#include "wording.h"
 
 namespace concave_distance::detail {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "base/constants.h"
 #include "base/number_text.h"
-#include "frame_name.h"
+#include "kinematics/frame_name.h"
 #include "mesh/surface/primitive_table.h"
 #include "scene/name_pattern.h"
 #include "settings_reader.h"

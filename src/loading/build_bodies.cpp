@@ -105,15 +105,40 @@ std::shared_ptr<const BodyMesh> sharedMesh(const BodySource& source, SurfaceMesh
   });
 }
 
+/// Stands for all that a body's mesh is made from.
+std::optional<ContentKey> sourceKey(const std::optional<ContentKey>& geometry, const BodySource& source,
+                                    const SceneLimits& limits) {
+  if (!geometry) return std::nullopt;
+  ContentHasher hasher;
+  return hasher.add(*geometry)
+      .add(source.max_edge_length.has_value())
+      .add(source.max_edge_length.value_or(0.0))
+      .add(limits.nodes)
+      .key();
+}
+
+// Files may change until they are read, which the key of what was read tells.
+RepairedBody load(const BodySource& source, const std::shared_ptr<BodyPool>& pool,
+                  const PreparationCachePointer& cache, const SceneLimits& limits) {
+  if (const auto key = sourceKey(geometryKey(source.geometry), source, limits)) {
+    if (std::optional<RepairedBody> known = pool->findRepaired(*key)) return std::move(*known);
+  }
+  KeyedMesh keyed = loadGeometry(source.geometry, source.source, cache.get());
+  checkTriangleCount(keyed.repaired.mesh.triangleCount(), source, limits);
+  checkExtent(keyed.repaired.mesh, source);
+  RepairedBody made{nullptr, keyed.repaired.report};
+  made.mesh = sharedMesh(source, std::move(keyed.repaired.mesh), pool, cache, limits);
+  if (const auto key = sourceKey(keyed.key, source, limits)) pool->insertRepaired(*key, made);
+  return made;
+}
+
 SceneBody build(const BodySource& source, const std::shared_ptr<BodyPool>& pool,
                 const PreparationCachePointer& cache, const SceneLimits& limits) {
   checkTriangleCount(givenTriangles(source), source, limits);
-  RepairedMesh repaired = loadGeometry(source.geometry, source.source, cache.get());
-  checkTriangleCount(repaired.mesh.triangleCount(), source, limits);
-  checkExtent(repaired.mesh, source);
+  const RepairedBody loaded = load(source, pool, cache, limits);
   SceneBody body = source;
-  body.repair = repaired.report;
-  body.mesh = sharedMesh(source, std::move(repaired.mesh), pool, cache, limits);
+  body.repair = loaded.report;
+  body.mesh = loaded.mesh;
   body.bounds = boundsOf(*body.mesh);
   // A robot's margin is for all its links, also those that are smaller.
   if (!source.is_robot_link) requireMargin(source.source, body.margin, *body.mesh);

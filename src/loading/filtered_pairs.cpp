@@ -5,7 +5,7 @@
 #include <set>
 #include <string>
 
-#include "wording.h"
+#include "kinematics/wording.h"
 
 namespace concave_distance::detail {
 namespace {

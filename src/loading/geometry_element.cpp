@@ -59,9 +59,14 @@ std::optional<MeshFile> openElement(const GeometryElement& element) {
   return std::optional<MeshFile>(std::in_place, element.mesh_resource, element.real_folders);
 }
 
-/// Adds all that the element's surface is made from. False where that is not in the file and numbers named.
+/// Adds all that the element's surface is made from. False where that is not in the file named alone.
 bool addElement(ContentHasher& hasher, const GeometryElement& element, const std::optional<MeshFile>& file) {
-  if (element.triangles) return false;
+  if (element.triangles) {
+    const TriangleSoup& soup = *element.triangles;
+    hasher.add("triangles")
+        .addBytes(soup.vertices.data(), soup.vertices.size() * sizeof(soup.vertices[0]))
+        .addBytes(soup.triangles.data(), soup.triangles.size() * sizeof(soup.triangles[0]));
+  }
   hasher.add(element.primitive);
   for (const double dimension : element.dimensions) hasher.add(dimension);
   if (file) {
@@ -90,8 +95,9 @@ std::optional<ContentKey> keyOf(const std::vector<GeometryElement>& elements, co
 
 /// Each file is open from its import until it has been added to the key.
 KeyedMesh makeSurface(const std::vector<GeometryElement>& elements, const RepairOptions& options,
-                      const std::string& where, bool with_key) {
+                      const std::string& where) {
   TriangleSoup body;
+  bool has_key = true;
   ContentHasher hasher = hasherOf(options);
   for (const GeometryElement& element : elements) {
     if (!element.frame_from_geometry.matrix().allFinite()) {
@@ -100,17 +106,17 @@ KeyedMesh makeSurface(const std::vector<GeometryElement>& elements, const Repair
     const std::optional<MeshFile> file = openElement(element);
     if (element.triangles) {
       appendTransformed(body, *element.triangles, element.frame_from_geometry);
-      with_key = false;
-      continue;
+    } else {
+      appendTransformed(
+          body,
+          file ? importMesh(*file, element.scale, element.access.limits) : soupOf(makePrimitive(element)),
+          element.frame_from_geometry);
     }
-    appendTransformed(
-        body, file ? importMesh(*file, element.scale, element.access.limits) : soupOf(makePrimitive(element)),
-        element.frame_from_geometry);
-    with_key = with_key && addElement(hasher, element, file);
+    has_key = has_key && addElement(hasher, element, file);
   }
   const bool is_one_file = elements.size() == 1 && !elements.front().mesh_resource.empty();
   return {repairMesh(body, options, is_one_file ? elements.front().mesh_resource : where),
-          with_key ? std::optional<ContentKey>(hasher.key()) : std::nullopt};
+          has_key ? std::optional<ContentKey>(hasher.key()) : std::nullopt};
 }
 
 }  // namespace
@@ -133,12 +139,18 @@ std::string locateGeometry(GeometryElement& element, const MeshFolders& folders,
   }
 }
 
-RepairedMesh loadGeometry(const std::vector<GeometryElement>& elements, const std::string& where,
-                          PreparationCache* cache) {
+std::optional<ContentKey> geometryKey(const std::vector<GeometryElement>& elements) {
+  return keyOf(elements, RepairOptions());
+}
+
+KeyedMesh loadGeometry(const std::vector<GeometryElement>& elements, const std::string& where,
+                       PreparationCache* cache) {
   const RepairOptions options;
+  for (const GeometryElement& element : elements) {
+    if (element.triangles) cache = nullptr;  // those of requests would fill it
+  }
   return repairedMeshThrough(
-      cache, [&] { return keyOf(elements, options); },
-      [&](bool with_key) { return makeSurface(elements, options, where, with_key); });
+      cache, [&] { return keyOf(elements, options); }, [&] { return makeSurface(elements, options, where); });
 }
 
 std::optional<RoundShape> roundShapeOf(const std::vector<GeometryElement>& elements) {

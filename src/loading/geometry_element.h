@@ -9,8 +9,8 @@
 #include "concave_distance/loading/mesh_roots.h"
 #include "concave_distance/loading/resource_locator.h"
 #include "concave_distance/mesh/preparation_cache.h"
-#include "concave_distance/mesh/repair/repair_mesh.h"
 #include "concave_distance/mesh/surface/round_shape.h"
+#include "mesh/repaired_mesh_cache.h"
 #include "mesh_search.h"
 
 namespace concave_distance::detail {
@@ -38,9 +38,14 @@ std::string locateGeometry(GeometryElement& element, const MeshFolders& folders,
 /// Loads located elements and merges them into one repaired surface in the body's frame; slits of
 /// single precision are welded (kSinglePrecisionWeld), so that what is meant to be closed is.
 /// @param cache looked into first and added to; nullptr: none
+/// @return with the geometryKey() of the very files that were read
 /// @throws Error naming the element at fault: nothing of the body is served rather than a part of it
-RepairedMesh loadGeometry(const std::vector<GeometryElement>& elements, const std::string& where,
-                          PreparationCache* cache);
+KeyedMesh loadGeometry(const std::vector<GeometryElement>& elements, const std::string& where,
+                       PreparationCache* cache);
+
+/// Returns a key for all that loadGeometry() makes the surface from; nothing where a file does not tell it.
+/// @throws Error for a file that cannot be read, and for an element with none or two shapes
+std::optional<ContentKey> geometryKey(const std::vector<GeometryElement>& elements);
 
 /// The solid of a body that is one round primitive, body frame; nothing for any other.
 std::optional<RoundShape> roundShapeOf(const std::vector<GeometryElement>& elements);

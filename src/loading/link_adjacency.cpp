@@ -22,8 +22,9 @@ std::vector<std::vector<Neighbour>> neighboursOf(const RobotDescription& robot) 
     const auto parent = number.find(joint.parent);
     const auto child = number.find(joint.child);
     if (parent == number.end() || child == number.end()) continue;
-    neighbours[parent->second].push_back({child->second, joint.fixed});
-    neighbours[child->second].push_back({parent->second, joint.fixed});
+    const bool fixed = joint.type == JointType::Fixed;
+    neighbours[parent->second].push_back({child->second, fixed});
+    neighbours[child->second].push_back({parent->second, fixed});
   }
   return neighbours;
 }

@@ -222,6 +222,7 @@ Scene assemble(const SceneSpec& spec, SceneParts parts, const SceneLoadOptions& 
   scene.simulation = spec.simulation;
   scene.defaults = spec.defaults;
   scene.groups = std::move(selection.groups);
+  scene.robots = parts.robots;
   scene.notes = std::move(parts.notes);
   scene.warnings = std::move(parts.warnings);
   scene.problems = std::move(parts.problems);
@@ -266,7 +267,7 @@ Scene loadSceneText(const std::string& yaml, const std::string& where, const std
   for (const RobotSpec& robot : spec.robots) addRobot(robot, base_folder, options, parts);
   for (const detail::BodySpec& body : spec.bodies) detail::addBody(body, base_folder, parts);
   Scene scene = assemble(spec, parts, options);
-  detail::limitManyPairs(scene, parts);
+  detail::limitManyPairs(scene);
   if (options.strict) requireNoProblem(scene);
   return scene;
 }
@@ -310,10 +311,10 @@ Scene loadRobotScene(const std::string& urdf, const std::string& where, const Sc
     addSemantics(robot, description, "", options, parts);
   }
   Scene scene = assemble(spec, parts, options);
-  if (options.automatic_cutoff) detail::setAutomaticCutoff(scene, description);
-  detail::limitManyPairs(scene, parts);
+  if (options.automatic_cutoff) detail::setAutomaticCutoff(scene);
+  detail::limitManyPairs(scene);
   detail::warnOfNoGeometry(scene, description, options.geometry);
-  detail::reportOverlappingPairs(scene, description, options);
+  detail::reportOverlappingPairs(scene, options);
   if (options.strict) requireNoProblem(scene);
   return scene;
 }
@@ -337,7 +338,10 @@ std::vector<LoadedBody> loadBodies(const std::vector<BodyDescription>& descripti
   for (std::size_t i = 0; i < built.size(); ++i) {
     loaded[i].body = std::move(built[i].body);
     if (loaded[i].body) continue;
-    loaded[i].problem.emplace("body '" + descriptions[i].name + "'", built[i].problem, "it is not added");
+    const std::string where = "body '" + descriptions[i].name + "'";
+    std::string& problem = built[i].problem;
+    if (problem.rfind(where + ": ", 0) == 0) problem.erase(0, where.size() + 2);  // it is said once
+    loaded[i].problem.emplace(where, problem, "it is not added");
   }
   return loaded;
 }

@@ -6,19 +6,22 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <unordered_map>
 
 #include "base/number_text.h"
+#include "base/random_engine.h"
+#include "concave_distance/kinematics/robot_kinematics.h"
 #include "concave_distance/scene/broad_phase.h"
 #include "distance/bound/certificate.h"
 #include "distance/bound/solid_overlap.h"
-#include "link_poses.h"
-#include "wording.h"
+#include "kinematics/wording.h"
 
 namespace concave_distance::detail {
 namespace {
 
 constexpr double kCutoffShare = 0.2;  // of the robot's diagonal
 constexpr std::size_t kRandomPoses = 20;
+constexpr double kHalfTurn = 3.141592653589793;  // rad
 constexpr std::uint64_t kSeed = 1;
 constexpr std::size_t kMostNamed = 8;
 constexpr std::size_t kFewPairs = 1000;      // all of which may be solved at any distance
@@ -27,8 +30,33 @@ constexpr double kEnoughToBeApart = 0.9;     // of the distance: the proof ends 
 
 using Poses = std::unordered_map<std::string, Eigen::Isometry3d>;
 
+// Poses of the links in the frame of the root, by their frames.
+Poses posesOf(const RobotKinematics& robot, const Eigen::VectorXd& positions) {
+  RobotState state = robot.restState();
+  robot.evaluate(positions, Eigen::Isometry3d::Identity(), state);
+  Poses poses;
+  for (std::size_t i = 0; i < robot.linkNames().size(); ++i) {
+    poses.emplace(robot.linkNames()[i], state.world_from_link[i]);
+  }
+  return poses;
+}
+
+// Every number at random in its range: without one an angle within a turn, all else at rest.
+Eigen::VectorXd randomPositions(const RobotKinematics& robot, RandomEngine& engine) {
+  Eigen::VectorXd positions = robot.restPositions();
+  const Eigen::VectorXd lowest = robot.lowestPositions();
+  const Eigen::VectorXd highest = robot.highestPositions();
+  for (Eigen::Index i = 0; i < positions.size(); ++i) {
+    const double share = uniformUnit(engine);
+    if (std::isfinite(lowest[i])) positions[i] = lowest[i] + share * (highest[i] - lowest[i]);
+    if (!std::isfinite(lowest[i]) && robot.isAngle(static_cast<std::size_t>(i)))
+      positions[i] = kHalfTurn * (2.0 * share - 1.0);
+  }
+  return positions;
+}
+
 const Eigen::Isometry3d* poseOf(const Poses& poses, const SceneBody& body) {
-  const auto found = poses.find(body.name);
+  const auto found = poses.find(body.frame);
   return found == poses.end() ? nullptr : &found->second;
 }
 
@@ -61,6 +89,15 @@ double diagonalAt(const Scene& scene, const Poses& poses) {
   return box.isEmpty() ? 0.0 : box.diagonal().norm();
 }
 
+// Of the largest robot in its zero pose; 0 without one.
+double largestDiagonal(const Scene& scene) {
+  double diagonal = 0.0;
+  for (const auto& robot : scene.robots) {
+    diagonal = std::max(diagonal, diagonalAt(scene, posesOf(*robot, robot->restPositions())));
+  }
+  return diagonal;
+}
+
 double automaticCutoff(double diagonal) {
   if (!(diagonal > 0.0) || !std::isfinite(diagonal)) return std::numeric_limits<double>::infinity();
   const double wanted = kCutoffShare * diagonal;
@@ -70,7 +107,7 @@ double automaticCutoff(double diagonal) {
 
 // Places in `pairs`.
 std::vector<std::size_t> pairsThatAlwaysOverlap(const Scene& scene, const PairList& pairs,
-                                                const RobotDescription& robot, const LoadProgress* progress) {
+                                                const RobotKinematics& robot, const LoadProgress* progress) {
   std::vector<std::size_t> left;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     if (pairs[i].enabled) left.push_back(i);
@@ -78,7 +115,7 @@ std::vector<std::size_t> pairsThatAlwaysOverlap(const Scene& scene, const PairLi
   RandomEngine engine(kSeed);
   for (std::size_t pose = 0; pose <= kRandomPoses && !left.empty(); ++pose) {
     if (progress != nullptr && progress->stop) return {};
-    const Poses poses = linkPoses(robot, pose == 0 ? zeroPositions(robot) : randomPositions(robot, engine));
+    const Poses poses = posesOf(robot, pose == 0 ? robot.restPositions() : randomPositions(robot, engine));
     std::vector<char> overlaps(left.size(), 0);
     tbb::parallel_for(std::size_t{0}, left.size(), [&](std::size_t i) {
       const ScenePair& pair = pairs[left[i]];
@@ -126,11 +163,10 @@ bool watchesWithoutCutoff(const Scene& scene) {
 
 }  // namespace
 
-void limitManyPairs(Scene& scene, const SceneParts& parts) {
+void limitManyPairs(Scene& scene) {
   const std::size_t pairs = watchesWithoutCutoff(scene) ? countRuledPairs(scene) : 0;
   if (pairs <= kFewPairs) return;
-  double diagonal = 0.0;
-  for (const Poses& robot : parts.robots_at_rest) diagonal = std::max(diagonal, diagonalAt(scene, robot));
+  double diagonal = largestDiagonal(scene);
   for (const SceneBody& body : scene.bodies) diagonal = std::max(diagonal, body.mesh->diameter());
   const double cutoff = automaticCutoff(diagonal);
   if (!std::isfinite(cutoff)) return;
@@ -145,8 +181,8 @@ void limitManyPairs(Scene& scene, const SceneParts& parts) {
                         "bodies keeps none)");
 }
 
-void setAutomaticCutoff(Scene& scene, const RobotDescription& robot) {
-  const double diagonal = diagonalAt(scene, linkPoses(robot, zeroPositions(robot)));
+void setAutomaticCutoff(Scene& scene) {
+  const double diagonal = largestDiagonal(scene);
   const double cutoff = automaticCutoff(diagonal);
   scene.automatic_cutoff = cutoff;
   scene.defaults.pairs.tracker.cutoff = cutoff;
@@ -174,9 +210,11 @@ void warnOfNoGeometry(Scene& scene, const RobotDescription& robot, GeometrySourc
   scene.warnings.push_back(text);
 }
 
-void reportOverlappingPairs(Scene& scene, const RobotDescription& robot, const SceneLoadOptions& options) {
+void reportOverlappingPairs(Scene& scene, const SceneLoadOptions& options) {
+  if (scene.robots.empty()) return;
   const PairList all = allPairs(scene, kMostTried);
-  const std::vector<std::size_t> pairs = pairsThatAlwaysOverlap(scene, all, robot, options.progress);
+  const std::vector<std::size_t> pairs =
+      pairsThatAlwaysOverlap(scene, all, *scene.robots.front(), options.progress);
   if (pairs.empty()) return;
   const std::string text = describeOverlap(all, pairs);
   if (!options.skip_overlapping_pairs) {

@@ -3,7 +3,6 @@
 #include "concave_distance/loading/load_scene.h"
 #include "concave_distance/scene/scene.h"
 #include "robot_description.h"
-#include "scene_parts.h"
 
 namespace concave_distance::detail {
 
@@ -12,11 +11,11 @@ namespace concave_distance::detail {
 /// Gives the pairs by rule that have no cutoff one, where there are more than 1000 of them: a fifth of the
 /// diagonal of the largest body, or of the largest robot in its zero pose; adds a note. Listed pairs keep
 /// none.
-void limitManyPairs(Scene& scene, const SceneParts& parts);
+void limitManyPairs(Scene& scene);
 
 /// Gives every pair a cutoff for the robot's size: a fifth of the diagonal of the box around it in its zero
 /// pose, rounded up to two digits; adds a note.
-void setAutomaticCutoff(Scene& scene, const RobotDescription& robot);
+void setAutomaticCutoff(Scene& scene);
 
 /// Adds a warning when no link has geometry of the wanted kind.
 void warnOfNoGeometry(Scene& scene, const RobotDescription& robot, GeometrySource geometry);
@@ -24,6 +23,6 @@ void warnOfNoGeometry(Scene& scene, const RobotDescription& robot, GeometrySourc
 /// Adds a warning that names the enabled pairs whose bodies overlap in the zero pose and in each of 20 random
 /// poses: usually links that overlap by design. options.skip_overlapping_pairs leaves them out. Does nothing
 /// when loading was stopped.
-void reportOverlappingPairs(Scene& scene, const RobotDescription& robot, const SceneLoadOptions& options);
+void reportOverlappingPairs(Scene& scene, const SceneLoadOptions& options);
 
 }  // namespace concave_distance::detail

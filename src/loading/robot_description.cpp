@@ -1,7 +1,6 @@
 #include "robot_description.h"
 
 #include <tinyxml2.h>
-#include <urdf_parser/urdf_parser.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -10,41 +9,16 @@
 
 #include "base/number_text.h"
 #include "concave_distance/base/error.h"
-#include "frame_name.h"
-#include "message_capture.h"
-#include "urdf_values.h"
-#include "wording.h"
+#include "kinematics/frame_name.h"
+#include "kinematics/urdf_text.h"
+#include "kinematics/urdf_values.h"
+#include "kinematics/wording.h"
 
 namespace concave_distance::detail {
 namespace {
 
-constexpr std::size_t kLongestDescription = 64'000'000;  // bytes
-constexpr std::size_t kMostLinks = 10'000;
-constexpr std::size_t kLongestQuote = 60;  // characters of a text that is not a URDF
-constexpr const char* kCheckUrdf = "check it with check_urdf; a xacro file must be expanded first";
-
 const char* elementName(GeometrySource geometry) {
   return geometry == GeometrySource::Collision ? "collision" : "visual";
-}
-
-// The same parse with what urdfdom said meanwhile.
-struct ParsedModel {
-  urdf::ModelInterfaceSharedPtr model;
-  std::vector<std::string> messages;
-};
-
-ParsedModel parseModel(const std::string& urdf) {
-  const MessageCapture capture;
-  ParsedModel parsed;
-  try {
-    parsed.model = urdf::parseURDF(urdf);
-    parsed.messages = capture.messages();
-  } catch (const std::exception& exception) {  // urdfdom lets a ParseError or a bad number through at times
-    parsed.model.reset();
-    parsed.messages = capture.messages();
-    parsed.messages.emplace_back(exception.what());
-  }
-  return parsed;
 }
 
 // urdfdom reports a link's fault as some messages and a last one that names the link.
@@ -71,23 +45,8 @@ struct LinkText {
   std::size_t most_shapes = 0;  ///< in one geometry element
 };
 
-struct RobotText {
+std::vector<LinkText> scan(const tinyxml2::XMLElement& root, const char* wanted) {
   std::vector<LinkText> links;
-  std::vector<std::string> joints;  ///< names, in the order of the text
-};
-
-/// @param name nullptr: of any name
-std::size_t countChildren(const tinyxml2::XMLElement& parent, const char* name = nullptr) {
-  std::size_t count = 0;
-  for (const auto* child = parent.FirstChildElement(name); child != nullptr;
-       child = child->NextSiblingElement(name)) {
-    ++count;
-  }
-  return count;
-}
-
-RobotText scan(const tinyxml2::XMLElement& root, const char* wanted) {
-  RobotText text;
   for (const auto* link = root.FirstChildElement("link"); link != nullptr;
        link = link->NextSiblingElement("link")) {
     LinkText counted;
@@ -99,13 +58,9 @@ RobotText scan(const tinyxml2::XMLElement& root, const char* wanted) {
         counted.most_shapes = std::max(counted.most_shapes, countChildren(*geometry));
       }
     }
-    text.links.push_back(counted);
+    links.push_back(counted);
   }
-  for (const auto* joint = root.FirstChildElement("joint"); joint != nullptr;
-       joint = joint->NextSiblingElement("joint")) {
-    text.joints.push_back(attribute(*joint, "name"));
-  }
-  return text;
+  return links;
 }
 
 // Takes all but the wanted elements out of every link.
@@ -117,33 +72,6 @@ void keepOnly(tinyxml2::XMLElement& root, const std::string& wanted) {
       if (child->Value() != wanted) link->DeleteChild(child);
       child = next;
     }
-  }
-}
-
-std::string printed(const tinyxml2::XMLDocument& document) {
-  tinyxml2::XMLPrinter printer;
-  document.Print(&printer);
-  return printer.CStr();
-}
-
-// Deeply nested text would overflow the stack in urdfdom. So tinyxml2, which limits depth, reads the text
-// first, and the number of links is limited.
-void parseXml(tinyxml2::XMLDocument& document, const std::string& urdf, const std::string& where) {
-  if (urdf.size() > kLongestDescription) {
-    throw Error(where, "the URDF has " + std::to_string(urdf.size()) + " bytes",
-                "allowed: at most " + std::to_string(kLongestDescription));
-  }
-  document.Parse(urdf.c_str(), urdf.size());
-  if (document.Error()) {
-    const std::string seen =
-        urdf.find('<') == std::string::npos ? "; it is '" + urdf.substr(0, kLongestQuote) + "'" : "";
-    throw Error(where, "the URDF cannot be read; " + xmlError(document) + seen, kCheckUrdf);
-  }
-  std::size_t links = 0;
-  if (const auto* robot = document.FirstChildElement("robot")) links = countChildren(*robot, "link");
-  if (links > kMostLinks) {
-    throw Error(where, "the URDF has " + std::to_string(links) + " links",
-                "allowed: at most " + std::to_string(kMostLinks));
   }
 }
 
@@ -204,6 +132,20 @@ std::optional<Eigen::Vector4d> colourOf(const urdf::Link& link) {
   return Eigen::Vector4d(colour.r, colour.g, colour.b, colour.a);
 }
 
+// About the centre of mass, in the link's axes: in the URDF the tensor has its own axes.
+std::optional<MassProperties> inertiaOf(const urdf::Link& link) {
+  if (!link.inertial) return std::nullopt;
+  const urdf::Inertial& given = *link.inertial;
+  const Eigen::Isometry3d link_from_inertial = toIsometry(given.origin);
+  MassProperties inertia;
+  inertia.mass = given.mass;
+  inertia.centre_in_body = link_from_inertial.translation();
+  inertia.inertia << given.ixx, given.ixy, given.ixz, given.ixy, given.iyy, given.iyz, given.ixz, given.iyz,
+      given.izz;
+  inertia.inertia = link_from_inertial.linear() * inertia.inertia * link_from_inertial.linear().transpose();
+  return inertia;
+}
+
 // '/a' and 'a' are two links for urdfdom and one frame for tf2.
 void requireDistinctLinks(const RobotDescription& robot, const std::string& where) {
   std::set<std::string> names;
@@ -228,26 +170,24 @@ RobotDescription readRobotDescription(const std::string& urdf, const std::string
   const char* wanted = elementName(geometry);
   tinyxml2::XMLDocument document;
   parseXml(document, urdf, where);
-  const ParsedModel full = parseModel(printed(document));
-  if (!full.model) {
-    throw Error(where, "the URDF cannot be read; urdfdom says: " + joinedText(full.messages, "; "),
-                kCheckUrdf);
-  }
+  const ParsedModel full = requireModel(document, where);
   tinyxml2::XMLElement* root = document.FirstChildElement("robot");
-  const RobotText text = scan(*root, wanted);
+  const std::vector<LinkText> text = scan(*root, wanted);
   const bool visual_is_wanted = geometry == GeometrySource::Visual;
-  const RobotText other =
+  const std::vector<LinkText> other =
       scan(*root, elementName(visual_is_wanted ? GeometrySource::Collision : GeometrySource::Visual));
+  RobotDescription robot;
+  RobotStructure structure = structureOf(*root, *full.model);
+  robot.name = structure.name;
+  robot.joints = std::move(structure.joints);
   keepOnly(*root, wanted);
   const ParsedModel geometry_only = parseModel(printed(document));
   const std::map<std::string, std::string> all_faults = messagesByLink(full.messages);
   const std::map<std::string, std::string> geometry_faults = messagesByLink(geometry_only.messages);
 
-  RobotDescription robot;
-  robot.name = full.model->getName();
-  robot.links_with_other_geometry = static_cast<std::size_t>(std::count_if(
-      other.links.begin(), other.links.end(), [](const LinkText& link) { return link.elements > 0; }));
-  for (const LinkText& link_text : text.links) {
+  robot.links_with_other_geometry = static_cast<std::size_t>(
+      std::count_if(other.begin(), other.end(), [](const LinkText& link) { return link.elements > 0; }));
+  for (const LinkText& link_text : text) {
     RobotLink link;
     link.name = link_text.name;
     const urdf::LinkConstSharedPtr full_link = full.model->getLink(link.name);
@@ -274,11 +214,6 @@ RobotDescription readRobotDescription(const std::string& urdf, const std::string
     if (!link.problem.empty()) link.geometry.clear();
     link.name = withoutLeadingSlash(link.name);
     robot.links.push_back(std::move(link));
-  }
-  for (const std::string& name : text.joints) {
-    const urdf::JointConstSharedPtr joint = full.model->getJoint(name);
-    if (!joint) continue;  // urdfdom refuses the whole text instead
-    robot.joints.push_back(toJoint(*joint));
   }
   requireDistinctLinks(robot, where);
   return robot;

@@ -9,6 +9,7 @@
 #include "concave_distance/loading/load_scene.h"
 #include "concave_distance/mesh/surface/mass_properties.h"
 #include "geometry_element.h"
+#include "kinematics/robot_joint.h"
 
 namespace concave_distance::detail {
 
@@ -19,26 +20,6 @@ struct RobotLink {
   std::optional<MassProperties> inertia;  ///< as given, link frame
   std::string problem;                    ///< why the geometry could not be read; empty: it could
   bool hasGeometry() const { return !geometry.empty() || !problem.empty(); }
-};
-
-/// Names how joints with one degree of freedom move; the others stand still here.
-enum class JointMotion : std::uint8_t { None, Turns, Slides };
-
-struct RobotJoint {
-  std::string name;
-  std::string parent;
-  std::string child;
-  bool fixed = false;
-  bool floating = false;
-  Eigen::Isometry3d parent_from_joint = Eigen::Isometry3d::Identity();
-  JointMotion motion = JointMotion::None;
-  Eigen::Vector3d axis = Eigen::Vector3d::UnitX();  ///< unit, joint frame
-  bool has_limits = false;
-  double lower = 0.0;  ///< rad or m
-  double upper = 0.0;
-  std::string mimicked;  ///< the joint it follows; empty: none
-  double mimic_factor = 1.0;
-  double mimic_offset = 0.0;
 };
 
 /// Holds what a URDF says that matters here; links and joints in the order of the text. Link names have no

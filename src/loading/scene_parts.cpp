@@ -3,10 +3,9 @@
 #include <algorithm>
 
 #include "concave_distance/base/error.h"
-#include "frame_name.h"
-#include "link_poses.h"
+#include "kinematics/frame_name.h"
+#include "kinematics/wording.h"
 #include "scene/name_pattern.h"
-#include "wording.h"
 
 namespace concave_distance::detail {
 namespace {
@@ -83,6 +82,19 @@ void addLinks(const RobotSpec& spec, const RobotDescription& robot, const Descri
   parts.groups.emplace_back(spec.name.empty() ? spec.prefix + robot.name : spec.name, std::move(members));
 }
 
+// A robot whose joints make no sense is served all the same: tf says where its links are.
+void addKinematics(const RobotSpec& spec, const RobotDescription& robot, const DescriptionText& urdf,
+                   SceneParts& parts) {
+  RobotStructure structure{robot.name, {}, robot.joints};
+  for (const RobotLink& link : robot.links) structure.links.push_back(link.name);
+  try {
+    parts.robots.push_back(std::make_shared<const RobotKinematics>(structure, urdf.where, spec.prefix));
+  } catch (const Error& error) {
+    parts.notes.push_back(std::string(error.what()) + "; this robot has no queries at joint positions, no " +
+                          "rows of constraints and no cutoff of its own");
+  }
+}
+
 }  // namespace
 
 const char* SceneParts::filterReason(std::size_t source_a, std::size_t source_b) const {
@@ -99,13 +111,11 @@ void addRobot(const RobotSpec& spec, const RobotDescription& robot, const Descri
               SceneParts& parts) {
   for (const std::string& note : robot.notes) parts.notes.push_back(urdf.where + ", " + note);
   addLinks(spec, robot, urdf, parts);
-  auto& at_rest = parts.robots_at_rest.emplace_back();
-  for (const auto& [link, pose] : linkPoses(robot, zeroPositions(robot))) {
-    at_rest.emplace(bodyName(spec, link), pose);
-  }
+  addKinematics(spec, robot, urdf, parts);
   for (const RobotJoint& joint : robot.joints) {
-    if (joint.fixed) parts.rigid.join(bodyName(spec, joint.parent), bodyName(spec, joint.child));
-    if (joint.floating) {
+    if (joint.type == JointType::Fixed)
+      parts.rigid.join(bodyName(spec, joint.parent), bodyName(spec, joint.child));
+    if (joint.type == JointType::Floating) {
       parts.notes.push_back(urdf.where + ", joint '" + joint.name +
                             "' floats, so robot_state_publisher leaves out " + "the transform from '" +
                             bodyName(spec, joint.parent) + "' to '" + bodyName(spec, joint.child) +

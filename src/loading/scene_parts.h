@@ -1,13 +1,14 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <set>
 #include <string>
-#include <unordered_map>
 #include <utility>
 #include <vector>
 
 #include "build_bodies.h"
+#include "concave_distance/kinematics/robot_kinematics.h"
 #include "concave_distance/scene/rigid_frames.h"
 #include "concave_distance/scene/scene.h"
 #include "link_adjacency.h"
@@ -34,10 +35,9 @@ struct SceneParts {
   std::vector<std::pair<std::string, std::vector<std::string>>> groups;  ///< of robots and SRDFs: body names
   std::vector<std::string> notes;
   std::vector<std::string> warnings;
-  /// The robots in their zero poses: poses of links in the root's frame, by body name.
-  std::vector<std::unordered_map<std::string, Eigen::Isometry3d>> robots_at_rest;
-  std::vector<SceneProblem> problems;  ///< URDFs and SRDFs that cannot be read
-  bool robot_failed = false;           ///< a name that nobody knows may be one of its links
+  std::vector<std::shared_ptr<const RobotKinematics>> robots;  ///< those whose joints can be moved
+  std::vector<SceneProblem> problems;                          ///< URDFs and SRDFs that cannot be read
+  bool robot_failed = false;  ///< a name that nobody knows may be one of its links
 
   static constexpr const char* kDisabledBySrdf = "disabled in the SRDF";
   static constexpr const char* kRigid = "no joint moves one against the other";

@@ -7,8 +7,8 @@
 #include <optional>
 
 #include "concave_distance/base/error.h"
-#include "frame_name.h"
-#include "wording.h"
+#include "kinematics/frame_name.h"
+#include "kinematics/wording.h"
 
 namespace concave_distance::detail {
 namespace {

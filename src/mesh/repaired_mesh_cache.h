@@ -23,21 +23,21 @@ void storeRepairedMesh(PreparationCache* cache, const ContentKey& key, const Rep
 /// A repaired surface with the key of the very files it was made from.
 struct KeyedMesh {
   RepairedMesh repaired;
-  std::optional<ContentKey> key;  ///< nothing: not to be cached
+  std::optional<ContentKey> key;  ///< nothing: it has none
 };
 
 /// The cached surface or a made one, which is then stored.
-/// @param key_of gives std::optional<ContentKey>, nothing for what is not to be cached
-/// @param make gives a KeyedMesh, with a key where its argument asks for one; files may change after key_of
+/// @param key_of gives std::optional<ContentKey>, nothing for what has none
+/// @param make gives a KeyedMesh; files may change after key_of
 template <typename KeyOf, typename Make>
-RepairedMesh repairedMeshThrough(PreparationCache* cache, KeyOf key_of, Make make) {
+KeyedMesh repairedMeshThrough(PreparationCache* cache, KeyOf key_of, Make make) {
   const std::optional<ContentKey> key = cache != nullptr ? key_of() : std::nullopt;
   if (key) {
-    if (std::optional<RepairedMesh> found = findRepairedMesh(cache, *key)) return std::move(*found);
+    if (std::optional<RepairedMesh> found = findRepairedMesh(cache, *key)) return {std::move(*found), key};
   }
-  KeyedMesh made = make(key.has_value());
+  KeyedMesh made = make();
   if (key && made.key == key) storeRepairedMesh(cache, *key, made.repaired);
-  return std::move(made.repaired);
+  return made;
 }
 
 }  // namespace concave_distance

@@ -51,12 +51,12 @@ bool isAsItsRule(const Scene& scene, const ScenePair& pair) {
   const auto [earlier, later] = std::minmax(pair.body_a, pair.body_b);
   const PairRule& rule = scene.rules.of(scene.bodies[earlier].pair_class, scene.bodies[later].pair_class);
   const std::shared_ptr<const AddedBodyRule>& added = scene.bodies[later].added_rule;
-  return (rule.is_watched || (added && added->watches(scene.bodies[earlier].serial))) &&
+  return pair.is_from_rule && (rule.is_watched || (added && added->watches(scene.bodies[earlier].serial))) &&
          pair.enabled == rule.is_enabled && haveEqualSettings(pair.settings, settingsOf(scene, rule));
 }
 
-// Pairs that are listed and as their rule has them, such as those with topics of their own, follow it again
-// when nothing moves their bodies against each other any more.
+// Pairs that are listed for their topics alone and are as their rule has them follow it again when nothing
+// moves their bodies against each other any more.
 void unlistResting(Scene& scene, std::size_t body, const std::vector<std::string>& kept) {
   const auto rests = [&](const ScenePair& pair) {
     return (pair.body_a == body || pair.body_b == body) &&

@@ -4,6 +4,8 @@
 #include <sys/syscall.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <iterator>
 #include <system_error>
 #include <utility>
 
@@ -36,7 +38,7 @@ bool PreparationTask::suffices(const TrackerParameters& parameters) const {
          (lists_hidden_ || !parameters.hidden) && (is_searched_ || !(parameters.search_share > 0.0));
 }
 
-void PreparationTask::run() {
+void PreparationTask::makeNiches() {
   try {
     makeParts();
   } catch (...) {
@@ -45,67 +47,105 @@ void PreparationTask::run() {
   is_done_.store(true, std::memory_order_release);
 }
 
-void PreparationTask::makeParts() const {
-  const BodyMesh& a = a_->asSolved();
-  const BodyMesh& b = b_->asSolved();
-  if (a.shape() != nullptr && b.shape() != nullptr) return;
+void PreparationTask::makeParts() {
+  const std::shared_ptr<const BodyMesh> mesh_a = a_.lock();
+  const std::shared_ptr<const BodyMesh> mesh_b = b_.lock();
+  if (!mesh_a || !mesh_b) return;
+  const BodyMesh& a = mesh_a->asSolved();
+  const BodyMesh& b = mesh_b->asSolved();
+  needs_no_search_ = a.shape() != nullptr && b.shape() != nullptr;
+  if (needs_no_search_) return;
   for (const BodyMesh* body : {&a, &b}) {
     body->adjacency();
     body->pieces();
     body->hullGap();
   }
-  if (!keeps_through_material_ && !lists_hidden_ && detail::areConvex(a, b)) return;
+  needs_no_search_ = !keeps_through_material_ && !lists_hidden_ && detail::areConvex(a, b);
+  if (needs_no_search_) return;
   const NormalSides sides = keeps_through_material_ ? NormalSides::Both : NormalSides::Outside;
-  runTogether({[&] { a.prepareNiches(sides); }, [&] { b.prepareNiches(sides); },
-               [&] {
-                 if (is_searched_) prepareSearch({&a, &b});
-               }});
+  runTogether({[&] { a.prepareNiches(sides); }, [&] { b.prepareNiches(sides); }});
+}
+
+void PreparationTask::makeSearch() {
+  const std::shared_ptr<const BodyMesh> a = a_.lock();
+  const std::shared_ptr<const BodyMesh> b = b_.lock();
+  if (!is_searched_ || needs_no_search_ || !a || !b) return;
+  try {
+    prepareSearch({&a->asSolved(), &b->asSolved()});
+  } catch (...) {
+    return;  // lists are proven without
+  }
+  is_search_done_.store(true, std::memory_order_release);
 }
 
 NichePreparation::~NichePreparation() {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     is_ending_ = true;
-    tasks_.clear();
+    waiting_ = {};
   }
   added_.notify_one();
   if (thread_.joinable()) thread_.join();
 }
 
 void NichePreparation::add(std::shared_ptr<PreparationTask> task) {
+  add(Entry{std::move(task), false});
+}
+
+void NichePreparation::add(Entry entry) {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     try {
       if (!thread_.joinable()) thread_ = std::thread([this] { work(); });
     } catch (const std::system_error&) {
-      return task->run();
+      return entry.task->run();
     }
-    tasks_.push_back(std::move(task));
+    waiting_[entry.is_ahead ? 1 : 0].push_back(std::move(entry));
   }
   added_.notify_one();
 }
 
 void NichePreparation::addAhead(const std::shared_ptr<const BodyMesh>& mesh,
                                 const TrackerParameters& parameters) {
-  if (begun_ahead_.insert(mesh.get()).second) add(std::make_shared<PreparationTask>(mesh, mesh, parameters));
+  if (isBegunAhead(mesh)) return;
+  add(Entry{std::make_shared<PreparationTask>(mesh, mesh, parameters), true});
+}
+
+bool NichePreparation::isBegunAhead(const std::shared_ptr<const BodyMesh>& mesh) {
+  std::weak_ptr<const BodyMesh>& begun = begun_ahead_[mesh.get()];
+  if (!begun.expired()) return true;  // another one that is gone may have had its address
+  begun = mesh;
+  if (begun_ahead_.size() > most_begun_) {
+    for (auto entry = begun_ahead_.begin(); entry != begun_ahead_.end();) {
+      entry = entry->second.expired() ? begun_ahead_.erase(entry) : std::next(entry);
+    }
+    most_begun_ = 2 * begun_ahead_.size() + 64;
+  }
+  return false;
 }
 
 void NichePreparation::work() {
   giveWay();
-  std::vector<std::shared_ptr<PreparationTask>> taken;
+  const auto first = [this] {
+    return std::find_if(waiting_.begin(), waiting_.end(), [](const auto& list) { return !list.empty(); });
+  };
+  std::unique_lock<std::mutex> lock(mutex_);
   for (;;) {
-    {
-      std::unique_lock<std::mutex> lock(mutex_);
-      added_.wait(lock, [this] { return is_ending_ || !tasks_.empty(); });
-      if (is_ending_) return;
-      taken.swap(tasks_);
+    added_.wait(lock, [&] { return is_ending_ || first() != waiting_.end(); });
+    if (is_ending_) return;
+    const auto list = first();
+    const bool is_search = list == waiting_.end() - 1;
+    Entry entry = std::move(list->front());
+    list->pop_front();
+    if (!entry.is_ahead && entry.task.use_count() == 1) continue;  // the pair is gone
+    lock.unlock();
+    if (is_search) {
+      entry.task->makeSearch();
+    } else {
+      entry.task->makeNiches();
     }
-    for (const std::shared_ptr<PreparationTask>& task : taken) {
-      task->run();
-      const std::lock_guard<std::mutex> lock(mutex_);
-      if (is_ending_) return;
-    }
-    taken.clear();
+    lock.lock();
+    if (!is_search && !entry.is_ahead) waiting_.back().push_back(std::move(entry));
   }
 }
 

@@ -1,43 +1,55 @@
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <condition_variable>
-#include <cstdint>
+#include <cstddef>
+#include <deque>
 #include <memory>
 #include <mutex>
 #include <thread>
-#include <unordered_set>
-#include <vector>
+#include <unordered_map>
 
 #include "concave_distance/mesh/body_mesh.h"
 #include "concave_distance/tracking/tracker_parameters.h"
 
 namespace concave_distance {
 
-/// Makes what the niches of one pair need of its bodies: facets, neighbours, normal cones and the grid of the
-/// search. Two convex bodies need less (areConvex()), two round solids nothing.
+/// Makes what the niches of one pair need of its bodies, while these are there: facets, neighbours and normal
+/// cones; then the grids of the search, which take ten times as long and without which lists are proven too.
+/// Two convex bodies need less (areConvex()), two round solids nothing.
 class PreparationTask {
  public:
   PreparationTask(std::shared_ptr<const BodyMesh> a, std::shared_ptr<const BodyMesh> b,
                   const TrackerParameters& parameters);
   /// Returns whether it makes all that a pair needs with these parameters.
   bool suffices(const TrackerParameters& parameters) const;
+  /// Returns whether all but the search is made.
   bool isDone() const { return is_done_.load(std::memory_order_acquire); }
-  /// Makes the parts. An exception is left to the first cycle that needs the part.
-  void run();
+  bool isSearchDone() const { return is_search_done_.load(std::memory_order_acquire); }
+  /// Makes all but the search. An exception is left to the first cycle that needs the part, as below.
+  void makeNiches();
+  void makeSearch();
+  void run() {
+    makeNiches();
+    makeSearch();
+  }
 
  private:
-  void makeParts() const;
+  void makeParts();
 
-  std::shared_ptr<const BodyMesh> a_;
-  std::shared_ptr<const BodyMesh> b_;
+  std::weak_ptr<const BodyMesh> a_;
+  std::weak_ptr<const BodyMesh> b_;
   bool keeps_through_material_;
   bool lists_hidden_;
   bool is_searched_;
+  bool needs_no_search_ = false;  ///< being convex, or round
   std::atomic<bool> is_done_{false};
+  std::atomic<bool> is_search_done_{false};
 };
 
-/// Runs such tasks on a thread of its own that gives way to others, so that no cycle waits for them.
+/// Runs such tasks on a thread of its own that gives way to others, so that no cycle waits for them: first
+/// the niches of pairs, then those of meshes that may come near, then the searches of pairs.
 class NichePreparation {
  public:
   NichePreparation() = default;
@@ -46,18 +58,26 @@ class NichePreparation {
   NichePreparation(const NichePreparation&) = delete;
   NichePreparation& operator=(const NichePreparation&) = delete;
 
-  /// Runs a task after those that came before; at once where no thread can be had.
+  /// Runs a task of a pair after those that came before, unless the caller has dropped it by then; at once
+  /// where no thread can be had.
   void add(std::shared_ptr<PreparationTask> task);
   /// Makes what a mesh needs against any other, once.
   void addAhead(const std::shared_ptr<const BodyMesh>& mesh, const TrackerParameters& parameters);
 
  private:
+  struct Entry {
+    std::shared_ptr<PreparationTask> task;
+    bool is_ahead = false;  ///< nobody else has it
+  };
+  void add(Entry entry);
   void work();
-  std::unordered_set<const BodyMesh*> begun_ahead_;  ///< meshes, some of which may be gone
+  bool isBegunAhead(const std::shared_ptr<const BodyMesh>& mesh);
+  std::unordered_map<const BodyMesh*, std::weak_ptr<const BodyMesh>> begun_ahead_;
+  std::size_t most_begun_ = 64;  ///< before those that are gone are looked for
 
   std::mutex mutex_;  ///< of the following
   std::condition_variable added_;
-  std::vector<std::shared_ptr<PreparationTask>> tasks_;  ///< that nobody has begun
+  std::array<std::deque<Entry>, 3> waiting_;  ///< pairs, meshes, searches
   bool is_ending_ = false;
   std::thread thread_;  ///< begins with the first task
 };

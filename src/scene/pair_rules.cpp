@@ -106,6 +106,7 @@ std::optional<ScenePair> ruledPair(const Scene& scene, std::size_t body_a, std::
   pair.name = nameOf(scene, pair.body_a, pair.body_b);
   pair.enabled = rule->is_enabled;
   pair.settings = settingsOf(scene, *rule);
+  pair.is_from_rule = true;
   return pair;
 }
 

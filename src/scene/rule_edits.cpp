@@ -185,8 +185,10 @@ std::vector<std::string> changeMatchingPairs(Scene& scene, const std::string& pa
   }
   std::vector<std::string> names;
   for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
-    if (scene.pairs[i].name != pattern && !matchesPattern(pattern, scene.pairs[i].name)) continue;
+    const bool is_named = scene.pairs[i].name == pattern;
+    if (!is_named && !matchesPattern(pattern, scene.pairs[i].name)) continue;
     ScenePair& pair = scene.pairs.edit(i);
+    if (is_named) pair.is_from_rule = false;
     change("pair '" + pair.name + "'", pair.enabled, pair.settings);
     names.push_back(pair.name);
   }

@@ -70,8 +70,10 @@ std::vector<std::string> setOnePairEnabled(Scene& scene, std::size_t body_a, std
     }
     place = scene.pairs.size() - 1;
   }
-  scene.pairs.edit(*place).enabled = enabled;
-  return {scene.pairs[*place].name};
+  ScenePair& pair = scene.pairs.edit(*place);
+  pair.enabled = enabled;
+  pair.is_from_rule = false;
+  return {pair.name};
 }
 
 // Of all pairs of the two sides: first those that are there, then those that are created.

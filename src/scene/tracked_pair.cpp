@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "concave_distance/scene/broad_phase.h"
+#include "niche_preparation.h"
 
 namespace concave_distance {
 namespace {
@@ -161,7 +162,12 @@ void TrackedPair::endWithoutAnswer(PairState now) {
 }
 
 bool TrackedPair::needsSearch() const {
-  return must_solve_ && (demand.niches || !provesDistance(settings.tracker.accuracy));
+  return must_solve_ && ((demand.niches && !isSearchHeld()) || !provesDistance(settings.tracker.accuracy));
+}
+
+// What is made in the background is not made by a cycle.
+bool TrackedPair::isSearchHeld() const {
+  return preparation && !preparation->isSearchDone();
 }
 
 void TrackedPair::restart() {
@@ -200,6 +206,7 @@ void TrackedPair::adopt(std::shared_ptr<const ScenePair> pair, std::shared_ptr<c
 // Gives tracker and effects what the settings and the demand say; makes them when there are none.
 void TrackedPair::prepare(const std::atomic<bool>* stop) {
   if (effects.prepare(settings.effects, demand.effects)) must_solve_ = true;
+  if (tracker_) tracker_->holdSearch(isSearchHeld());
   if (tracker_ && !stale_parameters_ && tracker_->parameters().niches_wanted == demand.niches) return;
   TrackerParameters parameters = settings.tracker;
   parameters.niches_wanted = demand.niches;
@@ -209,6 +216,7 @@ void TrackedPair::prepare(const std::atomic<bool>* stop) {
   } else {
     tracker_ =
         std::make_unique<PairTracker>(origin->name, body_a->mesh, body_b->mesh, parameters, largest_id);
+    tracker_->holdSearch(isSearchHeld());
   }
   stale_parameters_ = false;
   must_solve_ = true;

@@ -33,6 +33,7 @@ class PairCycle {
   void prepare() { stages_.prepare(); }
   void reset();
   void restart();
+  void holdSearch(bool is_held) { stages_.holdSearch(is_held); }
   void setParameters(const TrackerParameters& parameters);
 
   NicheSearch& search() { return stages_.search(); }

@@ -109,8 +109,7 @@ void PairStages::solveExact(const Passed& passed, PairSolution& solution, WorkLi
   frame.pose_error = pose_error_;
   const ConvexNiches convex = countConvexNiches();
   const bool are_counted = convex == ConvexNiches::OnlyTheNearest || convex == ConvexNiches::None;
-  if (!basis.is_search_prepared && !are_counted && cycle_.is_tracked && parameters_.search_share > 0.0)
-    prepare(basis);
+  if (!basis.is_search_prepared && !are_counted && cycle_.is_tracked && mayHelp()) prepare(basis);
   limit.allowShare(kShareOfSearch);
   if (!proves()) basis.niches.follow(frame, basis.archive, limit);
   clock_.lap(SolveStage::Follow, solution.stages);
@@ -176,7 +175,7 @@ detail::ConvexNiches PairStages::countConvexNiches() const {
 bool PairStages::searchIsDue(const WorkLimit& limit) const {
   if (!proves()) return true;
   if (certainOnBasis() > cutoffOfBasis()) return false;  // there is no niche to find
-  return parameters_.search_share > 0.0 && (cycle_.is_tracked || limit.isTimed());
+  return mayHelp() && (cycle_.is_tracked || limit.isTimed());
 }
 
 void PairStages::propose(SearchCost& cost, WorkLimit& limit) {

@@ -48,6 +48,9 @@ class PairStages {
   const Cycle& cycle() const { return cycle_; }
   StageClock& clock() { return clock_; }
 
+  /// At `certified` the search waits while it is held.
+  void holdSearch(bool is_held) { is_search_held_ = is_held; }
+
   void prove(PairSolution& solution, WorkLimit& limit);
   void findNiches(PairSolution& solution, WorkLimit& limit);
   /// Makes what the first cycle would make otherwise.
@@ -101,6 +104,7 @@ class PairStages {
   double certainOnBasis() const;
   void propose(SearchCost& cost, WorkLimit& limit);
   detail::ConvexNiches countConvexNiches() const;
+  bool mayHelp() const { return parameters_.search_share > 0.0 && !is_search_held_; }
   bool searchIsDue(const WorkLimit& limit) const;
   double certainDistance() const;
 
@@ -110,6 +114,7 @@ class PairStages {
   TrackerParameters parameters_;
   double pose_error_;
   Cycle cycle_;
+  bool is_search_held_ = false;
   std::optional<PairFrame> frame_;  ///< of the present cycle
   DistanceProof proof_;
   NicheBasis meshes_;

@@ -109,6 +109,10 @@ void PairTracker::restart() {
   state().cycle.restart();
 }
 
+void PairTracker::holdSearch(bool is_held) {
+  state().cycle.holdSearch(is_held);
+}
+
 void PairTracker::setParameters(const TrackerParameters& parameters) {
   state().cycle.setParameters(parameters);
 }

@@ -113,6 +113,7 @@ const std::vector<std::string>& foldersFromTheGround() {
                                                    "tracking",
                                                    "scene",
                                                    "simulation",
+                                                   "kinematics",
                                                    "loading",
                                                    "thesis/src/genetic",
                                                    "thesis/src/partition",

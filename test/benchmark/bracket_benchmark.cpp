@@ -12,25 +12,23 @@
 // both diameters; wrong claims to penetrate; lists compared and those that differ.
 #include <tbb/parallel_for.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <mutex>
 #include <string>
 
 #include "benchmark/support/benchmark_main.h"
 #include "benchmark/support/fcl_distance.h"
+#include "benchmark/support/program_options.h"
 #include "benchmark/support/result_table.h"
+#include "benchmark/support/stopwatch.h"
 #include "concave_distance/tracking/pair_tracker.h"
 #include "support/body_motions.h"
 #include "support/random_solids.h"
 
 namespace concave_distance::benchmark {
 namespace {
-
-using Clock = WorkLimit::Clock;
 
 constexpr std::uint64_t kCyclesOfRun = 200;
 constexpr double kTolerance = 1e-9;  // of both diameters: FCL's rounding and the kernel's
@@ -73,10 +71,6 @@ double windingNumber(const SurfaceMesh& surface, const Eigen::Vector3d& point) {
         2.0 * std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + a.dot(c) * lb + b.dot(c) * la);
   }
   return solid_angle / (4.0 * M_PI);
-}
-
-Clock::time_point in(double seconds) {
-  return Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
 }
 
 /// Two solids on a random path, and what FCL needs of them.
@@ -125,11 +119,11 @@ class Run {
     if (kind <= 1) return tracker.update(pose, time, solution_);
     const double first = randomSeconds();
     const double second = randomSeconds();
-    if (!tracker.prove(pose, time, solution_, in(first))) return;
+    if (!tracker.prove(pose, time, solution_, instantIn(first))) return;
     if (kind == 2) {
       tracker.putOffNiches(solution_);
     } else {
-      tracker.addNiches(solution_, in(second));
+      tracker.addNiches(solution_, instantIn(second));
     }
   }
 
@@ -180,16 +174,14 @@ class Run {
 }  // namespace
 
 int benchmarkMain(int argc, char** argv) {
-  CLI::App app("Brackets and complete lists of cycles that limits end");
+  ProgramOptions options("Brackets and complete lists of cycles that limits end");
   std::uint64_t cycles = 1000000;
   std::uint64_t seed = 1;
   std::uint64_t lists = 100;
-  std::string output;
-  app.add_option("--cycles", cycles);
-  app.add_option("--seed", seed);
-  app.add_option("--lists", lists)->check(CLI::PositiveNumber);
-  app.add_option("--output", output);
-  CLI11_PARSE(app, argc, argv);
+  options.add("--cycles", cycles, "Cycles of all pairs together");
+  options.add("--seed", seed, "Of the pairs and limits");
+  options.add("--lists", lists, "One complete list in so many is compared", std::uint64_t{1});
+  if (!options.read(argc, argv)) return options.status();
   FiguresOfKinds figures;
   std::mutex mutex;
   tbb::parallel_for(std::uint64_t{0}, (cycles + kCyclesOfRun - 1) / kCyclesOfRun, [&](std::uint64_t run) {
@@ -197,7 +189,7 @@ int benchmarkMain(int argc, char** argv) {
     const std::lock_guard<std::mutex> lock(mutex);
     for (std::size_t kind = 0; kind < kKinds.size(); ++kind) figures[kind].add(of_run[kind]);
   });
-  ResultTable table(output,
+  ResultTable table(options.output(),
                     "kind,cycles,cut_proofs,incomplete_lists,bounds_above,distances_below,wrong_overlaps,"
                     "lists_compared,lists_wrong");
   for (std::size_t kind = 0; kind < kKinds.size(); ++kind) {

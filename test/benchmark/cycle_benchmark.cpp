@@ -31,8 +31,8 @@
 #include "benchmark/support/result_table.h"
 #include "benchmark/support/statistics.h"
 #include "concave_distance/base/error.h"
+#include "concave_distance/kinematics/scene_kinematics.h"
 #include "concave_distance/loading/load_scene.h"
-#include "concave_distance/loading/robot_poses.h"
 #include "concave_distance/scene/scene_tracker.h"
 #include "ros/demo/joint_path.h"
 #include "ros/demo/swaying_joints.h"
@@ -51,7 +51,6 @@ std::string textOf(const std::string& path) {
 /// A scene whose bodies move with one robot.
 struct MovingScene {
   Scene scene;
-  RobotPoses robot;
   std::function<Positions(double)> joints;  ///< at a time, seconds
 };
 
@@ -67,8 +66,7 @@ MovingScene demoScene(const std::string& name) {
   SceneLoadOptions options = loadOptions();
   options.descriptions["robot_description"] = urdf;
   const demo::NamedJointPath path = demo::readJointPath(folder + "/config/wam_path.csv");
-  return {loadSceneFile(folder + "/config/" + name + ".yaml", options), RobotPoses(urdf),
-          [path](double time) {
+  return {loadSceneFile(folder + "/config/" + name + ".yaml", options), [path](double time) {
             const Eigen::VectorXd at = path.path.at(time);
             Positions positions;
             for (std::size_t i = 0; i < path.joints.size(); ++i) {
@@ -91,8 +89,7 @@ MovingScene ownRobot(const std::string& files) {
   if (comma != std::string::npos) {
     options.descriptions["robot_description_semantic"] = textOf(files.substr(comma + 1));
   }
-  return {loadRobotScene(urdf, path, options), RobotPoses(urdf),
-          [joints = demo::swayingJoints(*model)](double time) {
+  return {loadRobotScene(urdf, path, options), [joints = demo::swayingJoints(*model)](double time) {
             Positions positions;
             for (const demo::SwayingJoint& joint : joints) positions[joint.name] = joint.at(time);
             return positions;
@@ -132,6 +129,10 @@ void measure(const MovingScene& moving, const std::string& name, std::uint32_t t
              const Settings& settings, ResultTable& table) {
   SceneTracker tracker({threads, nullptr, true});
   tracker.setScene(moving.scene);
+  const SceneKinematics joints(moving.scene);
+  const std::vector<std::string>& names = joints.positionNames();
+  Eigen::VectorXd positions = joints.restPositions();
+  SceneState state = joints.startState();
   const double period = 1.0 / settings.rate;
   const auto cycles = static_cast<std::size_t>(std::lround(settings.seconds * settings.rate));
   std::vector<Waits> waits(tracker.pairs().size());
@@ -140,12 +141,17 @@ void measure(const MovingScene& moving, const std::string& name, std::uint32_t t
   bool is_prepared = false;
   for (std::size_t cycle = 0; cycle < cycles;) {
     const double time = static_cast<double>(cycle) * period;
-    const auto poses = moving.robot.of(moving.scene, moving.joints(time));
+    const Positions at = moving.joints(time);
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      const auto named = at.find(names[i]);
+      if (named != at.end()) positions[static_cast<Eigen::Index>(i)] = named->second;
+    }
+    joints.evaluate(positions, state);
     const Clock::time_point start = Clock::now();
     const std::chrono::duration<double> budget(settings.share * period);
     const Clock::time_point end =
         settings.share > 0.0 ? start + std::chrono::duration_cast<Clock::duration>(budget) : kNoCycleEnd;
-    const CycleCounts counts = tracker.update(poses, time, {true, true, true, false}, end);
+    const CycleCounts counts = tracker.update(state.world_from_body, time, {true, true, true, false}, end);
     const double taken = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
     if (!is_prepared && counts.unprepared > 0) {
       std::this_thread::sleep_for(std::chrono::duration<double>(period));

@@ -19,134 +19,29 @@
 #include <fcl/broadphase/broadphase_dynamic_AABB_tree.h>
 #include <fcl/geometry/shape/box.h>
 
-#include <CLI/CLI.hpp>
 #include <chrono>
 #include <cmath>
-#include <fstream>
 #include <map>
 #include <memory>
 #include <thread>
 
-#include "base/random_engine.h"
 #include "benchmark/support/benchmark_main.h"
 #include "benchmark/support/fcl_distance.h"
+#include "benchmark/support/many_bodies.h"
+#include "benchmark/support/program_options.h"
+#include "benchmark/support/resident_memory.h"
 #include "benchmark/support/result_table.h"
 #include "benchmark/support/statistics.h"
 #include "benchmark/support/stopwatch.h"
-#include "concave_distance/mesh/surface/primitives.h"
-#include "concave_distance/mesh/surface/round_shape.h"
 #include "concave_distance/scene/scene_tracker.h"
-#include "support/random_solids.h"
 
 namespace concave_distance::benchmark {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-using Poses = std::vector<std::optional<Eigen::Isometry3d>>;
 
-constexpr double kCutoff = 0.2;
 constexpr double kPeriod = 0.02;
 constexpr double kBudget = 0.8 * kPeriod;
-constexpr std::size_t kShapes = 20;
-
-/// A smooth path about a home: a sum of slow sines.
-struct Path {
-  Eigen::Vector3d home;
-  std::array<Eigen::Vector3d, 3> amplitude;
-  std::array<Eigen::Vector3d, 3> phase;
-  Eigen::Vector3d axis;
-  double spin = 0.0;
-
-  Eigen::Isometry3d at(double time) const {
-    Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-    pose.translation() = home;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const double rate = 0.5 * (1.0 + static_cast<double>(k));
-      for (int i = 0; i < 3; ++i)
-        pose.translation()[i] += amplitude[k][i] * std::sin(rate * time + phase[k][i]);
-    }
-    pose.linear() = Eigen::AngleAxisd(spin * time, axis).toRotationMatrix();
-    return pose;
-  }
-};
-
-std::vector<std::shared_ptr<const BodyMesh>> makeShapes(RandomEngine& engine) {
-  std::vector<std::shared_ptr<const BodyMesh>> shapes;
-  for (std::size_t k = 0; k < kShapes; ++k) {
-    const double size = 0.2 + 0.3 * static_cast<double>(k) / kShapes;
-    const std::string name = "shape" + std::to_string(k);
-    if (k % 3 == 0) {
-      BodyMeshOptions options;
-      RoundShape ball;
-      ball.radius = 0.5 * size;
-      options.shape = ball;
-      shapes.push_back(std::make_shared<const BodyMesh>(name, makeSphere(0.5 * size, 0.005 * size), options));
-    } else if (k % 3 == 1) {
-      const Eigen::Vector3d sides = size * Eigen::Vector3d(1.0, 0.6 + 0.4 * uniformUnit(engine), 0.5);
-      shapes.push_back(std::make_shared<const BodyMesh>(name, makeBox(sides), BodyMeshOptions()));
-    } else {
-      // 1,000 to 5,000 triangles.
-      const double sag = size * (k % 2 == 0 ? 1.5e-3 : 6e-4) * (1.0 + static_cast<double>(k) / kShapes);
-      shapes.push_back(std::make_shared<const BodyMesh>(name, test::makeBumpyBall(0.45 * size, sag, 7.0),
-                                                        BodyMeshOptions()));
-    }
-  }
-  return shapes;
-}
-
-struct Cell {
-  Scene scene;
-  std::vector<Path> paths;
-  Poses posesAt(double time) const {
-    Poses poses;
-    for (const Path& path : paths) poses.emplace_back(path.at(time));
-    return poses;
-  }
-};
-
-Cell makeCell(std::size_t count) {
-  RandomEngine engine(1);
-  const auto shapes = makeShapes(engine);
-  Cell cell;
-  cell.scene.defaults.pairs.tracker.cutoff = kCutoff;
-  AddedBodyRule rule;
-  rule.all = true;
-  const auto added = std::make_shared<const AddedBodyRule>(rule);
-  const double side = std::cbrt(static_cast<double>(count));
-  for (std::size_t i = 0; i < count; ++i) {
-    SceneBody body;
-    body.name = body.frame = "b" + std::to_string(i);
-    body.mesh = shapes[i % kShapes];
-    body.bounds = boundsOf(*body.mesh);
-    body.added_rule = added;
-    cell.scene.bodies.push_back(std::move(body));
-    Path path;
-    path.home = side * (test::uniformInCube(engine, 0.5) + Eigen::Vector3d::Constant(0.5));
-    for (std::size_t k = 0; k < 3; ++k) {
-      path.amplitude[k] = test::uniformInCube(engine, 0.5 / static_cast<double>(k + 1));
-      path.phase[k] = M_PI * test::uniformInCube(engine, 1.0);
-    }
-    path.axis = (test::uniformInCube(engine, 1.0) + Eigen::Vector3d(0.0, 0.0, 1.1)).normalized();
-    path.spin = uniformUnit(engine);
-    cell.paths.push_back(path);
-  }
-  return cell;
-}
-
-double residentMegabytes(const std::string& key) {
-  std::ifstream status("/proc/self/status");
-  for (std::string word; status >> word;) {
-    double kilobytes = 0.0;
-    if (word == key && status >> kilobytes) return kilobytes / 1024.0;
-  }
-  return std::nan("");
-}
-
-double millisecondsOf(const std::function<void()>& act) {
-  const auto start = Clock::now();
-  act();
-  return 1e-3 * microsecondsSince(start);
-}
 
 struct Row {
   double start_s = 0.0;
@@ -182,31 +77,35 @@ void count(const SceneTracker& tracker, Row& row) {
   row.overlapping.push_back(overlapping);
 }
 
-void runOwn(const Cell& cell, std::uint32_t threads, int cycles, Row& row) {
+void runOwn(const ManyBodies& cell, std::uint32_t threads, int cycles, Row& row) {
   constexpr PairDemand kNothing{};
   constexpr PairDemand kDistance{true, true, false, false};
   constexpr PairDemand kNiches{true, true, true, false};
   double time = 0.0;
   std::vector<Poses> poses;
   for (int step = 0; step < cycles; ++step) poses.push_back(cell.posesAt(kPeriod * step));
-  SceneTracker broad({threads, nullptr});
-  broad.setScene(cell.scene);
-  for (int step = 0; step < cycles; ++step) {
-    const double taken = millisecondsOf(
-        [&] { broad.update(poses[static_cast<std::size_t>(step)], kPeriod * step, kNothing); });
-    if (step > 0) row.broad_ms.push_back(taken);
-  }
-  SceneTracker distances({threads, nullptr});
-  distances.setScene(cell.scene);
-  for (int step = 0; step < cycles; ++step) {
-    const double taken = millisecondsOf(
-        [&] { distances.update(poses[static_cast<std::size_t>(step)], kPeriod * step, kDistance); });
-    if (step == 0) {
-      row.first_ms = taken;
-      continue;
+  {
+    SceneTracker broad({threads, nullptr});
+    broad.setScene(cell.scene);
+    for (int step = 0; step < cycles; ++step) {
+      const double taken = millisecondsOf(
+          [&] { broad.update(poses[static_cast<std::size_t>(step)], kPeriod * step, kNothing); });
+      if (step > 0) row.broad_ms.push_back(taken);
     }
-    row.distance_ms.push_back(taken);
-    count(distances, row);
+  }
+  {
+    SceneTracker distances({threads, nullptr});
+    distances.setScene(cell.scene);
+    for (int step = 0; step < cycles; ++step) {
+      const double taken = millisecondsOf(
+          [&] { distances.update(poses[static_cast<std::size_t>(step)], kPeriod * step, kDistance); });
+      if (step == 0) {
+        row.first_ms = taken;
+        continue;
+      }
+      row.distance_ms.push_back(taken);
+      count(distances, row);
+    }
   }
   SceneTrackerOptions options{threads, nullptr};
   options.prepares_in_background = true;
@@ -215,7 +114,7 @@ void runOwn(const Cell& cell, std::uint32_t threads, int cycles, Row& row) {
   // What niches need is made in the background, at the pace of real cycles.
   const Poses& first = poses.front();
   const auto begin = Clock::now();
-  while (niches.update(first, 0.0, kNiches, Clock::now() + std::chrono::milliseconds(16)).unprepared > 0) {
+  while (niches.update(first, 0.0, kNiches, instantIn(kBudget)).unprepared > 0) {
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }
   row.prepare_s = 1e-6 * microsecondsSince(begin);
@@ -224,7 +123,7 @@ void runOwn(const Cell& cell, std::uint32_t threads, int cycles, Row& row) {
   for (int step = 0; step < cycles; ++step) {
     time = kPeriod * (step + 1);
     std::this_thread::sleep_until(paced + std::chrono::microseconds(static_cast<int>(1e6 * time)));
-    const auto end = Clock::now() + std::chrono::microseconds(static_cast<int>(1e6 * kBudget));
+    const auto end = instantIn(kBudget);
     row.niche_ms.push_back(
         millisecondsOf([&] { niches.update(poses[static_cast<std::size_t>(step)], time, kNiches, end); }));
     double oldest = 0.0;
@@ -238,7 +137,7 @@ void runOwn(const Cell& cell, std::uint32_t threads, int cycles, Row& row) {
     }
     row.oldest_ms.push_back(1e3 * oldest);
   }
-  row.memory_mb = residentMegabytes("VmHWM:");
+  row.memory_mb = residentMegabytes("VmHWM");
 }
 
 /// A body as FCL's managers hold it: a box about its mesh, widened by half the cutoff.
@@ -269,7 +168,7 @@ bool meet(fcl::CollisionObject<double>* l, fcl::CollisionObject<double>* r, void
 }
 
 template <typename Manager>
-void runManager(const Cell& cell, const std::vector<FclBody>& bodies, int cycles, bool is_made_anew,
+void runManager(const ManyBodies& cell, const std::vector<FclBody>& bodies, int cycles, bool is_made_anew,
                 std::vector<double>& alone_ms, std::vector<double>& with_ms) {
   const auto place = [&](const Poses& poses) {
     for (std::size_t i = 0; i < bodies.size(); ++i) {
@@ -304,7 +203,7 @@ void runManager(const Cell& cell, const std::vector<FclBody>& bodies, int cycles
   }
 }
 
-void runFcl(const Cell& cell, std::uint32_t threads, int cycles, Row& row) {
+void runFcl(const ManyBodies& cell, std::uint32_t threads, int cycles, Row& row) {
   std::map<const BodyMesh*, std::shared_ptr<FclModel>> models;
   std::map<const BodyMesh*, std::shared_ptr<fcl::CollisionGeometry<double>>> boxes;
   std::vector<FclBody> bodies;
@@ -348,20 +247,18 @@ double shareBeyond(const std::vector<double>& sample, double limit) {
 }  // namespace
 
 int benchmarkMain(int argc, char** argv) {
-  CLI::App app("Scenes of many bodies, beside FCL's managers");
+  ProgramOptions options("Scenes of many bodies, beside FCL's managers");
   std::vector<std::size_t> counts{50, 100, 200, 500, 1000};
   int cycles = 300;
   int fcl_cycles = 100;
   std::uint32_t threads = 0;
-  std::string output;
-  app.add_option("--bodies", counts, "Numbers of bodies")->delimiter(',');
-  app.add_option("--cycles", cycles, "Cycles of each kind")->check(CLI::Range(2, 1000000));
-  app.add_option("--fcl-cycles", fcl_cycles, "Cycles with FCL")->check(CLI::Range(2, 1000000));
-  app.add_option("--threads", threads, "Threads that solve pairs; 0: one per core");
-  app.add_option("--output", output, "CSV file to write");
-  CLI11_PARSE(app, argc, argv);
+  options.add("--bodies", counts, "Numbers of bodies");
+  options.add("--cycles", cycles, "Cycles of each kind", 2);
+  options.add("--fcl-cycles", fcl_cycles, "Cycles with FCL", 2);
+  options.add("--threads", threads, "Threads that solve pairs; 0: one per core");
+  if (!options.read(argc, argv)) return options.status();
 
-  ResultTable table(output,
+  ResultTable table(options.output(),
                     "bodies,possible_pairs,near_pairs,pairs_within,pairs_overlapping,start_s,first_cycle_ms,"
                     "prepare_s,broad_ms,"
                     "distances_ms,distances_p99_ms,distances_late,niches_ms,niches_p99_ms,niches_late,"
@@ -370,7 +267,7 @@ int benchmarkMain(int argc, char** argv) {
   for (const std::size_t number : counts) {
     Row row;
     const auto start = Clock::now();
-    const Cell cell = makeCell(number);
+    const ManyBodies cell = manyBodies(number);
     {
       SceneTracker tracker({threads, nullptr});
       tracker.setScene(cell.scene);

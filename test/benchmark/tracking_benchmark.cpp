@@ -15,14 +15,13 @@
 // instants that list fewer than 64 niches of which not all are proven to be found (incomplete, 0 expected);
 // of the instants that a cold solve saw, too, those at which it lists other niches (other, 0 expected);
 // memory of both bodies and of the tracker, kilobytes.
-#include <CLI/CLI.hpp>
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include "benchmark/support/benchmark_main.h"
 #include "benchmark/support/benchmark_pairs.h"
 #include "benchmark/support/circling_pair.h"
+#include "benchmark/support/program_options.h"
 #include "benchmark/support/result_table.h"
 #include "benchmark/support/statistics.h"
 #include "benchmark/support/stopwatch.h"
@@ -75,14 +74,10 @@ bool areEqual(const std::vector<double>& l, const std::vector<double>& r, double
 }
 
 void prepare(const BenchmarkPair& pair, const TrackerParameters& parameters, Row& row) {
-  const auto start = std::chrono::steady_clock::now();
-  PreparationTask(pair.a, pair.b, parameters).run();
-  row.prepare_ms = 1e-3 * microsecondsSince(start);
+  row.prepare_ms = millisecondsOf([&] { PreparationTask(pair.a, pair.b, parameters).run(); });
   PairTracker tracker(pair.name, pair.a, pair.b, parameters);
   PairSolution solution;
-  const auto first = std::chrono::steady_clock::now();
-  tracker.update(pair.motion(0.0), 0.0, solution);
-  row.first_list_ms = 1e-3 * microsecondsSince(first);
+  row.first_list_ms = millisecondsOf([&] { tracker.update(pair.motion(0.0), 0.0, solution); });
 }
 
 Row run(const BenchmarkPair& pair, int steps, double cutoff) {
@@ -105,9 +100,7 @@ Row run(const BenchmarkPair& pair, int steps, double cutoff) {
                      : 1;
   };
   const auto take = [&](std::vector<double>& times, const auto& solve) {
-    const auto start = std::chrono::steady_clock::now();
-    solve();
-    times.push_back(microsecondsSince(start));
+    times.push_back(1e3 * millisecondsOf(solve));
   };
   for (int k = 0; k < steps; ++k) {
     const double t = steps > 1 ? static_cast<double>(k) / (steps - 1) : 0.0;
@@ -139,27 +132,21 @@ Row run(const BenchmarkPair& pair, int steps, double cutoff) {
 }  // namespace
 
 int benchmarkMain(int argc, char** argv) {
-  CLI::App app("Tracked and cold solves beside FCL, one run, one thread");
+  ProgramOptions options("Tracked and cold solves beside FCL, one run, one thread");
   std::vector<std::string> names = allPairs();
   std::vector<std::string> files;
   std::vector<int> steps{500};
   std::vector<double> cutoffs{0.0};
-  std::string output;
-  app.add_option("--pairs", names, "Pairs to run, or `simple`; all when left out")->delimiter(',');
-  app.add_option("--files", files, "Pairs of mesh files instead, a colon between two")->delimiter(',');
-  app.add_option("--steps", steps, "Instants along each motion")
-      ->delimiter(',')
-      ->check(CLI::Range(2, 1000000));
-  app.add_option("--cutoffs", cutoffs, "Shares of the smaller body's diameter; 0: none")
-      ->delimiter(',')
-      ->check(CLI::Range(0.0, 1e3));
-  app.add_option("--output", output, "CSV file to write");
-  CLI11_PARSE(app, argc, argv);
+  options.add("--pairs", names, "Pairs to run, or `simple`; all when left out");
+  options.add("--files", files, "Pairs of mesh files instead, a colon between two");
+  options.add("--steps", steps, "Instants along each motion", 2);
+  options.add("--cutoffs", cutoffs, "Shares of the smaller body's diameter; 0: none", 0.0);
+  if (!options.read(argc, argv)) return options.status();
   if (names == std::vector<std::string>{"simple"}) names = simplePairs();
 
   if (!files.empty()) names = files;
 
-  ResultTable table(output,
+  ResultTable table(options.output(),
                     "pair,steps,cutoff,triangles_a,triangles_b,prepare_ms,first_list_ms,fcl_us,cold_us,"
                     "first_us,warm_us,warm_p99_us,warm_over_fcl,alone_us,alone_p99_us,fcl_over_alone,niches,"
                     "instants,wrong,incomplete,other,bodies_kb,tracker_kb");

@@ -20,6 +20,7 @@ bodies:
   - {name: blocks, frame: world, pose: {xyz: [0, 3, 10]}, mesh: meshes/two_blocks.obj}
   - {name: hook, mesh: meshes/hook.stl}
   - {name: comb, frame: world, pose: {xyz: [0, -3, 0]}, mesh: meshes/comb.stl}
+groups: {pair_of_boxes: [box_a, box_b]}
 pairs:
   - {between: [box_a, box_b], name: boxes, warning_distance: 0.6}
   - {between: [box_a, ball], name: box_ball}

@@ -15,14 +15,14 @@
 
 #include "base/csv_writer.h"
 #include "concave_distance/base/error.h"
+#include "concave_distance/kinematics/scene_kinematics.h"
 #include "concave_distance/loading/load_body_mesh.h"
 #include "concave_distance/loading/load_scene.h"
-#include "concave_distance/loading/robot_poses.h"
 #include "concave_distance/mesh/import/export_mesh.h"
 #include "concave_distance/mesh/import/import_mesh.h"
 #include "concave_distance/mesh/surface/primitives.h"
 #include "concave_distance/tracking/pair_tracker.h"
-#include "loading/frame_name.h"
+#include "kinematics/frame_name.h"
 #include "loading/query_poses.h"
 #include "loading/set_effects.h"
 #include "scene/name_pattern.h"
@@ -126,7 +126,10 @@ class LocaleTest : public test::SceneTest {
   void addScenes() {
     Scene scene = load(kScene);
     addScene(scene);
-    for (const auto& pose : RobotPoses(kUrdf).of(scene, {{"slide", 1.25}})) {
+    const SceneKinematics joints(scene);
+    SceneState state = joints.startState();
+    joints.evaluate(Eigen::VectorXd::Constant(1, 1.25), state);
+    for (const auto& pose : state.world_from_body) {
       if (pose) addAll(pose->matrix());
     }
     SceneLoadOptions robot_alone = options;

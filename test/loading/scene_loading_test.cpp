@@ -153,6 +153,30 @@ TEST_F(SceneLoading, BodiesOfTheSameSurfaceAndGridShareOneMesh) {
   EXPECT_EQ(loadBody(box("e"), "", nullptr, scene.pool).mesh, scene.bodies[2].mesh);
 }
 
+TEST_F(SceneLoading, AMeshThatABodyHasIsNotReadAgainUntilItsFileChanges) {
+  folder.write("t.stl", test::tetrahedronStl());
+  BodyDescription description;
+  description.name = "t";
+  description.mesh_resource = "package://arm_description/t.stl";
+  const auto pool = std::make_shared<BodyPool>(0);
+  const auto load_now = [&] { return loadBody(description, "", options.package_locator, pool); };
+  SceneBody first = load_now();
+  ::setenv("CONCAVE_DISTANCE_IMPORT_WORKER", "/nowhere/worker", 1);  // that reads files
+  const SceneBody second = load_now();
+  EXPECT_EQ(second.mesh, first.mesh);
+  EXPECT_EQ(second.repair.vertices_in, first.repair.vertices_in);
+  description.scale = Eigen::Vector3d(1, 1, 2);
+  EXPECT_THROW(load_now(), Error) << "not the same";
+  description.scale = Eigen::Vector3d::Ones();
+  description.max_edge_length = 0.125;
+  EXPECT_THROW(load_now(), Error) << "another grid";
+  description.max_edge_length.reset();
+  folder.write("t.stl", test::tetrahedronStl() + test::tetrahedronStl());
+  EXPECT_THROW(load_now(), Error) << "the file is another one now";
+  ::unsetenv("CONCAVE_DISTANCE_IMPORT_WORKER");
+  EXPECT_NE(load_now().repair.triangles_in, first.repair.triangles_in);
+}
+
 TEST_F(SceneLoading, NothingOfTheSearchIsMadeBeforeItIsNeeded) {
   BodyDescription plain = box("crate");
   plain.max_edge_length.reset();

@@ -286,7 +286,7 @@ TEST(AttachedBody, IsNotWatchedAgainstWhatItMayTouchUntilItIsDetached) {
 TEST(AttachedBody, RestsAgainAgainstBodiesOfTheFrameWhereItIsLeft) {
   Scene scene = cell();
   ASSERT_TRUE(run(scene, {attach("peg", "box"), attach("box", "hand")}).faults.empty());
-  listMatchingPairs(scene, {"*"});
+  scene.pairs = allPairs(scene);
   EXPECT_TRUE(watches(scene, "box", "table"));
   EXPECT_TRUE(watches(scene, "peg", "table"));
   EXPECT_FALSE(watches(scene, "peg", "hand"));
@@ -295,6 +295,25 @@ TEST(AttachedBody, RestsAgainAgainstBodiesOfTheFrameWhereItIsLeft) {
   EXPECT_FALSE(watches(scene, "peg", "table"));
   EXPECT_TRUE(watches(scene, "peg", "hand"));
   EXPECT_TRUE(watches(scene, "box", "hand"));
+}
+
+TEST(AttachedBody, IsWatchedAgainAtRestWhereThatWasAskedForByName) {
+  Scene scene = cell();
+  ASSERT_TRUE(run(scene, {attach("peg", "box")}).faults.empty());
+  for (const char* part : {"box", "peg"}) {
+    setPairEnabled(scene, {"", part, "table"}, true, scene.defaults.pairs);
+    ASSERT_TRUE(watches(scene, part, "table"));
+  }
+  ASSERT_TRUE(run(scene, {attach("box", "hand")}).faults.empty());
+  listMatchingPairs(scene, {"*"});
+  setPairEnabled(scene, {"table/hand", "", ""}, true, scene.defaults.pairs);
+  EXPECT_TRUE(watches(scene, "peg", "table"));
+  ASSERT_TRUE(run(scene, {detach("box"), attach("table", "hand")}).faults.empty());
+  EXPECT_FALSE(watches(scene, "table", "hand")) << "it moves with it";
+  ASSERT_TRUE(run(scene, {detach("table")}).faults.empty());
+  EXPECT_TRUE(watches(scene, "table", "hand"));
+  EXPECT_TRUE(watches(scene, "box", "table")) << "the pair was asked for";
+  EXPECT_TRUE(watches(scene, "peg", "table")) << "likewise, of a body that was carried along";
 }
 
 /// What is known of the bodies without the scene: where they are, and what moves them.

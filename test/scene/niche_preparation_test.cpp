@@ -3,10 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <thread>
 
 #include "concave_distance/scene/scene_tracker.h"
+#include "concave_distance/search/prepare_search.h"
 #include "mesh/trees/normal_cone_tree.h"
 #include "support/box_scene.h"
 #include "support/random_solids.h"
@@ -90,6 +92,42 @@ TEST(NichePreparation, ItBeginsWithTheSceneAndNotWithTheFirstDemand) {
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   EXPECT_EQ(tracker.update(posesAt(0.0), 0.0).unprepared, 0U);
   EXPECT_TRUE(pair.solution.niches_complete);
+}
+
+// Grids take ten times as long as normal cones, without which nothing is proven.
+TEST(NichePreparation, ListsAreCompleteBeforeTheSearchIsMadeWhichJoinsLater) {
+  const Scene scene = twoBumpyBalls();
+  SceneTracker tracker({1, nullptr, false});
+  tracker.setScene(scene);
+  TrackedPair& pair = *tracker.pairs()[0];
+  pair.preparation =
+      std::make_shared<PreparationTask>(pair.body_a->mesh, pair.body_b->mesh, pair.settings.tracker);
+  pair.preparation->makeNiches();
+  for (const double time : {0.0, 0.1}) tracker.update(posesAt(time), time);
+  EXPECT_TRUE(pair.solution.niches_complete);
+  EXPECT_EQ(pair.solution.cost.generations, 0U);
+  EXPECT_EQ(searchPreparationOf(pair.body_a->mesh->asSolved()).grid_nodes, 0U) << "no cycle makes it";
+  const std::size_t niches = pair.solution.niches.size();
+  pair.preparation->makeSearch();
+  tracker.update(posesAt(0.2), 0.2);
+  EXPECT_EQ(pair.solution.cost.generations, 1U);
+  EXPECT_TRUE(pair.solution.niches_complete);
+  EXPECT_EQ(pair.solution.niches.size(), niches);
+}
+
+TEST(NichePreparation, ItKeepsNoMeshThatIsGoneAndMakesNothingForAPairThatIs) {
+  SceneTracker tracker({1, nullptr, true});
+  std::vector<std::weak_ptr<const BodyMesh>> meshes;
+  for (int k = 0; k < 20; ++k) {
+    const Scene scene = twoBumpyBalls();
+    meshes.emplace_back(scene.bodies[0].mesh);
+    tracker.setScene(scene);
+  }
+  tracker.setScene(Scene());
+  // One of them may be in work.
+  const auto alive =
+      std::count_if(meshes.begin(), meshes.end(), [](const auto& mesh) { return !mesh.expired(); });
+  EXPECT_LE(alive, 1);
 }
 
 TEST(NichePreparation, WithoutItTheFirstCycleWaits) {

@@ -10,7 +10,6 @@
 #include <limits>
 
 #include "concave_distance/base/error.h"
-#include "concave_distance/loading/robot_poses.h"
 #include "support/box_scene.h"
 #include "support/random_solids.h"
 #include "support/scene_fixture.h"
@@ -288,65 +287,6 @@ TEST_F(SceneTrackerTest, FollowsABodyThatIsExchangedInItsPlace) {
   tracker.setScene(scene);
   tracker.update(posesAt(0.0), 0.0);
   EXPECT_NEAR(pair(0).solution.distance, 0.5, kRounding);
-}
-
-class RobotPosesTest : public test::SceneTest {};
-
-TEST_F(RobotPosesTest, AreThoseOfTheJointPositions) {
-  const std::string urdf = test::robot(
-      test::boxLink("a") + test::boxLink("b") +
-      "<joint name='turn' type='revolute'><origin xyz='2 0 0'/><parent link='a'/><child link='b'/>"
-      "<axis xyz='0 0 1'/><limit lower='-2' upper='2' effort='1' velocity='1'/></joint>");
-  Scene scene = loadRobotScene(urdf, "URDF", options);
-  scene.bodies.push_back(unitBox("elsewhere"));
-  const RobotPoses robot(urdf);
-  EXPECT_EQ(robot.jointNames(), std::vector<std::string>{"turn"});
-  const auto poses = robot.of(scene, {{"turn", 0.5}});
-  ASSERT_EQ(poses.size(), 3U);
-  EXPECT_TRUE(poses[0]->isApprox(Eigen::Isometry3d::Identity(), kRounding));
-  const Eigen::Isometry3d turned =
-      Eigen::Translation3d(2.0, 0.0, 0.0) * Eigen::AngleAxisd(0.5, Eigen::Vector3d::UnitZ());
-  EXPECT_TRUE(poses[1]->isApprox(turned, kRounding));
-  EXPECT_FALSE(poses[2].has_value()) << "no link of this robot";
-  EXPECT_THROW(robot.of(scene, {{"trun", 0.5}}), Error);
-  EXPECT_THROW(robot.of(scene, {{"turn", std::nan("")}}), Error);
-}
-
-std::string oneJoint(const std::string& slash) {
-  return test::robot(test::boxLink(slash + "a") + test::boxLink(slash + "b") +
-                     "<joint name='slide' type='prismatic'>"
-                     "<parent link='" +
-                     slash + "a'/><child link='" + slash +
-                     "b'/><axis xyz='1 0 0'/>"
-                     "<limit lower='0' upper='9' effort='1' velocity='1'/></joint>");
-}
-
-TEST_F(RobotPosesTest, AreThoseOfLinksWithALeadingSlash) {
-  const Scene scene = loadRobotScene(oneJoint("/"), "URDF", options);
-  const auto poses = RobotPoses(oneJoint("/")).of(scene, {{"slide", 3.0}});
-  ASSERT_EQ(poses.size(), 2U);
-  ASSERT_TRUE(poses[0] && poses[1]);
-  EXPECT_EQ(poses[1]->translation(), Eigen::Vector3d(3.0, 0.0, 0.0));
-}
-
-TEST_F(RobotPosesTest, AreThoseOfTheRobotWithThePrefix) {
-  options.descriptions["robot_description"] = oneJoint("/");
-  const Scene scene = load(
-      "robots: [{description: robot_description, prefix: left_},\n"
-      "         {description: robot_description, prefix: /right_}]\nbodies: [{name: table, sphere: {radius: "
-      "1}}]\n");
-  ASSERT_EQ(test::bodyNames(scene),
-            std::vector<std::string>({"left_a", "left_b", "right_a", "right_b", "table"}));
-  const auto left = RobotPoses(oneJoint("/"), "left", "left_").of(scene, {{"slide", 1.0}});
-  const auto right = RobotPoses(oneJoint("/"), "right", "/right_").of(scene, {{"slide", 2.0}});
-  ASSERT_TRUE(left[0] && left[1] && right[2] && right[3]);
-  EXPECT_FALSE(left[2] || left[3] || left[4] || right[0] || right[1] || right[4]);
-  EXPECT_EQ(left[1]->translation().x(), 1.0);
-  EXPECT_EQ(right[3]->translation().x(), 2.0);
-  EXPECT_TRUE(
-      test::mentions(messageOf([&] { RobotPoses(oneJoint("/")).of(scene, {}); }),
-                     "no body of the scene is fixed to a link '...' of robot 'arm'; the bodies' frames "
-                     "are 'left_a', 'left_b'"));
 }
 
 }  // namespace

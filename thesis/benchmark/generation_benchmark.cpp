@@ -23,15 +23,14 @@
 #include <fstream>
 #include <iterator>
 #include <limits>
-#include <map>
 #include <sstream>
 
 #include "benchmark/support/benchmark_main.h"
 #include "benchmark/support/benchmark_pairs.h"
 #include "benchmark/support/result_table.h"
 #include "benchmark/support/statistics.h"
+#include "concave_distance/kinematics/scene_kinematics.h"
 #include "concave_distance/loading/load_scene.h"
-#include "concave_distance/loading/robot_poses.h"
 #include "concave_distance/scene/scene_tracker.h"
 #include "concave_distance/tracking/pair_tracker.h"
 
@@ -161,15 +160,15 @@ class JointPath {
     }
   }
   double duration() const { return rows_.back()[0]; }
-  std::map<std::string, double> at(double time, const std::vector<std::string>& joints) const {
+  Eigen::VectorXd at(double time, std::size_t joints) const {
     std::size_t next = 1;
     while (next + 1 < rows_.size() && rows_[next][0] < time) ++next;
     const std::vector<double>& from = rows_[next - 1];
     const std::vector<double>& to = rows_[next];
     const double share = (time - from[0]) / (to[0] - from[0]);
-    std::map<std::string, double> positions;
-    for (std::size_t j = 0; j < joints.size() && j + 1 < from.size(); ++j) {
-      positions[joints[j]] = from[j + 1] + share * (to[j + 1] - from[j + 1]);
+    Eigen::VectorXd positions = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(joints));
+    for (std::size_t j = 0; j < joints && j + 1 < from.size(); ++j) {
+      positions[static_cast<Eigen::Index>(j)] = from[j + 1] + share * (to[j + 1] - from[j + 1]);
     }
     return positions;
   }
@@ -194,7 +193,8 @@ Row runRobot(const std::string& folder) {
     pairs.push_back(without);
   }
   plain.pairs = pairs;
-  const RobotPoses robot(urdf);
+  const SceneKinematics joints(scene);
+  SceneState state = joints.startState();
   const JointPath path(folder + "/config/wam_path.csv");
   SceneTracker searching({1, nullptr});
   SceneTracker idle({1, nullptr});
@@ -205,9 +205,9 @@ Row runRobot(const std::string& folder) {
   std::vector<Eigen::Isometry3d> last(scene.pairs.size(), Eigen::Isometry3d::Identity());
   for (int k = 0; k < kRobotRate * path.duration(); ++k) {
     const double time = k / kRobotRate;
-    const auto poses = robot.of(scene, path.at(time, robot.jointNames()));
-    searching.update(poses, time);
-    idle.update(poses, time);
+    joints.evaluate(path.at(time, joints.positionNames().size()), state);
+    searching.update(state.world_from_body, time);
+    idle.update(state.world_from_body, time);
     for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
       const TrackedPair& pair = *searching.pairs()[i];
       if (pair.solved() && !pair.repeated) {

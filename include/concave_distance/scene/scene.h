@@ -28,6 +28,7 @@
 namespace concave_distance {
 
 class BodyPool;
+class RobotKinematics;
 
 /// Returns a number that no body has had yet.
 std::uint64_t newBodySerial();
@@ -96,6 +97,7 @@ struct ScenePair {
   std::size_t body_b = 0;
   bool enabled = true;
   PairSettings settings;
+  bool is_from_rule = false;  ///< no request or entry of a scene file names it by itself
 };
 
 /// A body or element that could not be loaded: the rest of the scene is served without it. The message names
@@ -155,6 +157,8 @@ struct Scene {
   PreparationCachePointer cache;                 ///< of its bodies, used for later ones too; nullptr: none
   std::shared_ptr<BodyPool> pool;                ///< the same
   SceneLimits limits;                            ///< for edits, too
+  /// The joints of its robots, for kinematics/; not of a robot whose joints cannot be moved (see `notes`).
+  std::vector<std::shared_ptr<const RobotKinematics>> robots;
 
   std::optional<std::size_t> findBody(const std::string& name) const;
   /// Index of the listed pair of these bodies, in either order.

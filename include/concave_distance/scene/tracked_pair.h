@@ -111,6 +111,7 @@ struct TrackedPair {
   const PairTracker* tracker() const { return tracker_.get(); }
 
  private:
+  bool isSearchHeld() const;
   void takeSettings();
   void stayBeyond(double bound);
   void prepare(const std::atomic<bool>* stop);

@@ -57,6 +57,8 @@ class PairTracker {
   /// As if newly made, but buffers are kept: the next cycles give what those of a new tracker would.
   void restart();
 
+  /// While it is held, cycles at level `certified` do without the search, whose grids somebody else makes.
+  void holdSearch(bool is_held);
   /// Takes effect at the next cycle. @throws Error for parameters out of range
   void setParameters(const TrackerParameters& parameters);
   [[nodiscard]] const TrackerParameters& parameters() const;

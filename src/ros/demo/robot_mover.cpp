@@ -15,9 +15,9 @@
 
 #include "concave_distance/base/error.h"
 #include "demo_parameters.h"
+#include "kinematics/frame_name.h"
+#include "kinematics/urdf_values.h"
 #include "loading/description_search.h"
-#include "loading/frame_name.h"
-#include "loading/urdf_values.h"
 #include "swaying_joints.h"
 
 namespace {

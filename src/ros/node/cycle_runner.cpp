@@ -101,6 +101,7 @@ void CycleRunner::checkClock(ros::Time now) {
              secondsBetween(now, last_now_));
     transforms_.checkClock();
     cycle_.restart();
+    publishers_.restart();
   }
   last_now_ = now;
 }
@@ -117,6 +118,7 @@ bool CycleRunner::adoptScene() {
   const RestartRequests::Pending pending = restarts_.take();
   if (pending.all) {
     cycle_.restart();
+    publishers_.restart();
   }
   for (const std::string& name : pending.pairs) {
     for (std::size_t place = 0; place < cycle_.pairs().size(); ++place) {
@@ -147,6 +149,7 @@ CycleRecord CycleRunner::runCycle(ros::Time now, WorkLimit::Clock::time_point st
   const PublishReport published =
       publishers_.publish(*served_, cycle_.pairs(), cycle_.others(),
                           std::max(kMarkerPeriods / marker_rate, kShortestMarkerLife), now);
+  publishers_.publishConstraints({cycle_.trackedPairs(), cycle_.frames(), *transforms_.current()}, now);
   record.latency = published.latency;
   record.messages = published.messages;
   record.markers = published.markers;

@@ -43,6 +43,9 @@ class DistanceCycle {
   void restart(std::size_t pair) { tracker_.restart(pair); }
 
   const PublishedPairs& pairs() const { return pairs_; }
+  const SceneTracker::Pairs& trackedPairs() const { return tracker_.pairs(); }
+  /// Where the bodies' frames were in the last run().
+  const FramePoses& frames() const { return *frames_; }
   /// Counts the pairs by rule that pairs() does not have.
   const OtherPairs& others() const { return tracker_.others(); }
   /// Pairs that left the scene with an alert raised, which setScene took back; reported once.

@@ -59,7 +59,8 @@ DistanceServer::DistanceServer(const ros::NodeHandle& node, const ros::NodeHandl
       on_fatal_(std::move(on_fatal)),
       transforms_({parameters_.tf_cache, parameters_.tf_future_tolerance}),
       receiver_(node, transforms_),
-      publishers_(private_node, parameters_.reference_frame, parameters_.pair_topics),
+      publishers_(private_node, parameters_.reference_frame, parameters_.pair_topics,
+                  parameters_.constraints),
       keeper_(publishers_, parameters_.pair, parameters_.marker),
       service_queues_(private_node, parameters_.limits),
       queries_(

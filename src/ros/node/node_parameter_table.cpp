@@ -109,6 +109,22 @@ ParameterTable<N> ofTheCycle() {
           "`?` "
           "(one), e.g. `['gripper/*', 'arm/table']`; unset: every pair while the scene has at most 16"),
       number<N>(
+          "constraint_distance", [](auto& n) -> auto& { return n.constraints.settings.distance; },
+          "niches within this distance have a row in `constraints` ([rows for controllers](control.md)); "
+          "pairs "
+          "need a `cutoff` as large")
+          .inUnit("m")
+          .from(1e-6)
+          .to(1e6),
+      count<N>(
+          "constraint_capacity", [](auto& n) -> auto& { return n.constraints.settings.capacity; },
+          "slots of `constraints`: where there are more rows, the farthest have none")
+          .from(1.0)
+          .to(100000.0),
+      flag<N>(
+          "track_constraints", [](auto& n) -> auto& { return n.constraints.always; },
+          "follow rows without subscribers too, so that they have their slots before a controller starts"),
+      number<N>(
           "diagnostic_period", [](auto& n) -> auto& { return n.diagnostic_period; },
           "time between two diagnostics")
           .inUnit("s")

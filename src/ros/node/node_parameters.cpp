@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "concave_distance/base/error.h"
-#include "loading/frame_name.h"
+#include "kinematics/frame_name.h"
 #include "node_parameter_table.h"
 #include "parameter_reader.h"
 #include "scene/pair_parameters.h"

@@ -11,6 +11,7 @@
 #include "concave_distance/scene/scene.h"
 #include "ros/markers/marker_style.h"
 #include "ros/services/node_limits.h"
+#include "ros/topics/constraint_topic.h"
 
 namespace concave_distance {
 
@@ -47,6 +48,7 @@ struct NodeParameters {
   /// Patterns of the pairs with their own topics; nothing: every pair of a small scene.
   std::optional<std::vector<std::string>> pair_topics;
   MarkerStyle marker;
+  ConstraintOptions constraints;
   double diagnostic_period = 1.0;  ///< s
   NodeLimits limits;
 };

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "concave_distance/base/error.h"
-#include "loading/frame_name.h"
+#include "kinematics/frame_name.h"
 #include "parameter_reader.h"
 #include "ros/callback_guard.h"
 #include "ros/messages/conversions.h"

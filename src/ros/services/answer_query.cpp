@@ -1,15 +1,17 @@
 #include "answer_query.h"
 
 #include <algorithm>
+#include <array>
 #include <exception>
 #include <limits>
 #include <new>
+#include <optional>
 
 #include "base/short_text.h"
 #include "concave_distance/base/error.h"
 #include "concave_distance/tracking/pair_effects.h"
 #include "concave_distance/tracking/pair_tracker.h"
-#include "loading/frame_name.h"
+#include "kinematics/frame_name.h"
 #include "request_conversions.h"
 #include "ros/messages/contact_conversions.h"
 #include "ros/messages/conversions.h"
@@ -30,13 +32,43 @@ struct BodyPlace {
 };
 
 BodyPlace placeOf(const SceneBody& body, bool use_pose, const geometry_msgs::PoseStamped& pose,
-                  const std::string& reference_frame, const std::string& where) {
+                  const std::optional<BodyPlace>& by_joints, const std::string& reference_frame,
+                  const std::string& where) {
   if (!use_pose) {
-    return {body.frame, body.frame_from_body};
+    return by_joints ? *by_joints : BodyPlace{body.frame, body.frame_from_body};
   }
   const std::string& frame = pose.header.frame_id;
   return {frame.empty() ? reference_frame : requireFrameName(frame, where + ".header.frame_id"),
           poseFromMessage(pose.pose, where)};
+}
+
+using BodyPlaces = std::array<std::optional<BodyPlace>, 2>;
+
+// Where the joint positions of a query put its bodies; nothing for a body on no robot that is named.
+BodyPlaces placesByJoints(const DistanceQuery& query, const QueryContext& context, std::size_t index_a,
+                          std::size_t index_b) {
+  BodyPlaces places;
+  if (query.joints.name.empty() && query.joints.position.empty()) return places;
+  const std::shared_ptr<const SceneKinematics> joints = context.joints();
+  const auto positions = joints->positionsOfRobots(query.joints.name, query.joints.position);
+  const std::array<std::size_t, 2> bodies{index_a, index_b};
+  bool is_used = false;
+  for (std::size_t side = 0; side < 2; ++side) {
+    const auto& place = joints->placeOf(bodies[side]);
+    if (!place || !positions[place->robot]) continue;
+    is_used = true;
+    const RobotKinematics& robot = *joints->robots()[place->robot];
+    RobotState state = robot.restState();
+    robot.evaluate(*positions[place->robot], Eigen::Isometry3d::Identity(), state);
+    places[side] = BodyPlace{robot.linkNames().front(),
+                             state.world_from_link[place->link] * joints->frameFromBody(bodies[side])};
+  }
+  if (!is_used) {
+    throw Error("joints",
+                "neither '" + query.body_a + "' nor '" + query.body_b + "' is on a robot that they name",
+                "leave them out, or name the joints of a robot that one of the bodies is on");
+  }
+  return places;
 }
 
 double secondsLeft(const QueryContext& context) {
@@ -145,10 +177,11 @@ QueryAnswer answer(const DistanceQuery& query, const Scene& scene, const QueryCo
   heading.accuracy = parameters.accuracy;
   heading.with_niches = parameters.niches_wanted;
 
+  const BodyPlaces by_joints = placesByJoints(query, context, index_a, index_b);
   const BodyPlace place_a =
-      placeOf(body_a, query.use_pose_a != 0, query.pose_a, context.reference_frame, "pose_a");
+      placeOf(body_a, query.use_pose_a != 0, query.pose_a, by_joints[0], context.reference_frame, "pose_a");
   const BodyPlace place_b =
-      placeOf(body_b, query.use_pose_b != 0, query.pose_b, context.reference_frame, "pose_b");
+      placeOf(body_b, query.use_pose_b != 0, query.pose_b, by_joints[1], context.reference_frame, "pose_b");
   const PairTransforms transforms = locate(place_a, place_b, context, query.stamp, now);
   heading.stamp = transforms.status == TransformStatus::Missing ? now : transforms.stamp;
   heading.reference_from_a = transforms.reference_from_a;

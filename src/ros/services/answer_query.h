@@ -8,8 +8,11 @@
 #include <atomic>
 #include <chrono>
 #include <cstddef>
+#include <functional>
+#include <memory>
 #include <string>
 
+#include "concave_distance/kinematics/scene_kinematics.h"
 #include "concave_distance/scene/scene.h"
 #include "ros/tf/transform_buffer.h"
 
@@ -23,6 +26,9 @@ struct QueryContext {
   double stale_after = 1.0;        ///< s
   /// All queries of a call end at this time: running ones stop with the bound they have.
   std::chrono::steady_clock::time_point deadline = std::chrono::steady_clock::time_point::max();
+  /// The joints of the scene's robots; called for queries at joint positions alone. @throws Error without
+  /// them
+  std::function<std::shared_ptr<const SceneKinematics>()> joints = nullptr;
   const std::atomic<bool>* stop = nullptr;                      ///< set: running queries end, no other begins
   std::size_t memory_limit = TrackerParameters().memory_limit;  ///< bytes, of one query's solve
   std::size_t answer_limit = TrackerParameters().memory_limit;  ///< bytes, of the niches and contacts of one

@@ -12,6 +12,14 @@
 #include "scene/solver_threads.h"
 
 namespace concave_distance {
+namespace {
+
+QueryContext withJoints(QueryContext context, const std::shared_ptr<const ServedScene>& served) {
+  context.joints = [served] { return jointsOf(*served); };
+  return context;
+}
+
+}  // namespace
 
 DistanceQueries::DistanceQueries(ServiceQueues& queues, SceneStore& keeper, QueryContext context,
                                  const NodeLimits& limits, std::uint32_t threads)
@@ -56,7 +64,7 @@ bool DistanceQueries::getDistance(GetDistance::Request& request, GetDistance::Re
 void DistanceQueries::answerOne(const DistanceQuery& query, const QueryContext& context,
                                 GetDistance::Response& response) {
   const auto served = keeper_.served();
-  QueryAnswer answered = answerQuery(query, *served->scene, context, ros::Time::now());
+  QueryAnswer answered = answerQuery(query, *served->scene, withJoints(context, served), ros::Time::now());
   response.result = std::move(answered.result);
   response.contacts = std::move(answered.contacts);
   response.success = static_cast<std::uint8_t>(isAnswered(response.result));
@@ -90,13 +98,14 @@ bool DistanceQueries::getDistances(GetDistances::Request& request, GetDistances:
 void DistanceQueries::answerAll(const std::vector<DistanceQuery>& queries, const QueryContext& context,
                                 GetDistances::Response& response) {
   const auto served = keeper_.served();
+  const QueryContext of_scene = withJoints(context, served);
   const ros::Time now = ros::Time::now();
   response.results.resize(queries.size());
   response.contacts.resize(queries.size());
   std::atomic<std::size_t> next{0};
   const auto answer_some = [&] {
     for (std::size_t index = next++; index < queries.size(); index = next++) {
-      QueryAnswer answered = answerQuery(queries[index], *served->scene, context, now);
+      QueryAnswer answered = answerQuery(queries[index], *served->scene, of_scene, now);
       response.results[index] = std::move(answered.result);
       response.contacts[index] = std::move(answered.contacts);
     }

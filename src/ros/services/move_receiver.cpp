@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "loading/frame_name.h"
+#include "kinematics/frame_name.h"
 #include "request_conversions.h"
 #include "respond.h"
 #include "ros/callback_guard.h"

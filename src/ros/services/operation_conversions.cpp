@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "concave_distance/base/error.h"
-#include "loading/frame_name.h"
+#include "kinematics/frame_name.h"
 #include "request_conversions.h"
 
 namespace concave_distance {

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "concave_distance/loading/load_scene.h"
-#include "loading/wording.h"
+#include "kinematics/wording.h"
 #include "operation_conversions.h"
 #include "request_conversions.h"
 #include "respond.h"

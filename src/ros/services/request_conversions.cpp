@@ -6,7 +6,7 @@
 #include "base/constants.h"
 #include "base/number_text.h"
 #include "concave_distance/base/error.h"
-#include "loading/frame_name.h"
+#include "kinematics/frame_name.h"
 
 namespace concave_distance {
 namespace {

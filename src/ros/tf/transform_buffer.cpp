@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "base/number_text.h"
-#include "loading/frame_name.h"
+#include "kinematics/frame_name.h"
 #include "ros/time_difference.h"
 
 namespace concave_distance {

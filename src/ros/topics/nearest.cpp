@@ -86,11 +86,11 @@ std::string explain(const Survey& survey) {
 }  // namespace
 
 Nearest nearestOf(const PublishedPairs& pairs, const OtherPairs& others, const std::string& reference_frame,
-                  ros::Time now) {
+                  ros::Time now, const std::function<bool(const PublishedPair&)>& counts) {
   Survey survey;
   survey.add(others);
   for (const auto& pair : pairs) {
-    if (pair->demand().due) {
+    if (pair->demand().due && (!counts || counts(*pair))) {
       survey.add(*pair);
     }
   }

@@ -3,6 +3,7 @@
 #include <concave_distance/Nearest.h>
 #include <ros/time.h>
 
+#include <functional>
 #include <string>
 
 #include "concave_distance/scene/body_poses.h"
@@ -15,7 +16,8 @@ namespace concave_distance {
 /// pair whose proof was ended early; the bound of a pair beyond its cutoff. It is set when every pair has one
 /// of these, and it is 0 whenever bodies penetrate.
 /// @param others pairs by rule that `pairs` does not have
+/// @param counts says which of `pairs` count; empty: all
 Nearest nearestOf(const PublishedPairs& pairs, const OtherPairs& others, const std::string& reference_frame,
-                  ros::Time now);
+                  ros::Time now, const std::function<bool(const PublishedPair&)>& counts = {});
 
 }  // namespace concave_distance

@@ -9,25 +9,11 @@
 #include <unordered_map>
 #include <utility>
 
-#include "base/ascii.h"
 #include "scene/name_pattern.h"
 #include "scene/rule_edits.h"
+#include "topic_name.h"
 
 namespace concave_distance {
-namespace {
-
-// Links may be called `link-1` or `arm.2`; topics may not.
-std::string topicName(const std::string& pair) {
-  std::string name = pair;
-  for (char& c : name) {
-    const bool allowed = isLetterOrDigit(c) || c == '_' || c == '/';
-    c = allowed ? c : '_';
-  }
-  return "pairs/" + name;
-}
-
-}  // namespace
-
 PairTopicKeeper::PairTopicKeeper(const ros::NodeHandle& node,
                                  std::optional<std::vector<std::string>> patterns)
     : node_(node), patterns_(std::move(patterns)) {}
@@ -85,7 +71,7 @@ bool PairTopicKeeper::isWanted(const std::string& pair, std::size_t pair_count) 
 }
 
 std::shared_ptr<const PairTopics> PairTopicKeeper::advertise(const std::string& pair) {
-  const std::string name = topicName(pair);
+  const std::string name = "pairs/" + topicName(pair);
   auto topics = std::make_shared<PairTopics>();
   topics->distance = WatchedTopic::advertise<PairDistance>(node_, name + "/distance", kQueueLength);
   topics->niches = WatchedTopic::advertise<PairNiches>(node_, name + "/niches", kQueueLength);

@@ -1,6 +1,5 @@
 #include "topic_publishers.h"
 
-#include <concave_distance/Alert.h>
 #include <concave_distance/Contacts.h>
 #include <concave_distance/Distances.h>
 #include <concave_distance/Nearest.h>
@@ -12,6 +11,8 @@
 #include <boost/make_shared.hpp>
 #include <utility>
 
+#include "alerts.h"
+#include "concave_distance/base/error.h"
 #include "nearest.h"
 #include "ros/markers/scene_markers.h"
 #include "ros/messages/contact_conversions.h"
@@ -19,12 +20,6 @@
 
 namespace concave_distance {
 namespace {
-
-constexpr std::uint32_t kAlertQueueLength = 100;  // none of them is to be lost
-
-static_assert(Alert::CLEAR == static_cast<int>(WarningState::Clear));
-static_assert(Alert::WARNING == static_cast<int>(WarningState::Warning));
-static_assert(Alert::UNKNOWN == static_cast<int>(WarningState::Unknown));
 
 PairNiches toMessage(const PublishedPair& pair) {
   if (pair.tracked->solved()) {
@@ -51,16 +46,6 @@ PairContactState toContactMessage(const PublishedPair& pair) {
     return toContacts(pair.heading, pair.status, apart, pair.tracked->input.a_from_b);
   }
   return emptyContacts(pair.heading, pair.status);
-}
-
-Alert toAlert(const PublishedPair& pair, const PairDistance& nearest) {
-  Alert alert;
-  alert.header = nearest.header;
-  alert.state = static_cast<std::uint8_t>(pair.tracked->warning.state());
-  alert.warning_distance = pair.tracked->settings.warning_distance.value_or(kNotComputed);
-  alert.hysteresis = pair.tracked->settings.warning_hysteresis;
-  alert.nearest = nearest;
-  return alert;
 }
 
 // Fills what is said of the pairs that are not listed.
@@ -102,11 +87,17 @@ std_msgs::Header commonHeader(const std::vector<Message>& messages, ros::Time no
 
 }  // namespace
 
+std::shared_ptr<const SceneKinematics> jointsOf(const ServedScene& served) {
+  return served.joints.get([&] { return std::make_shared<const SceneKinematics>(*served.scene); });
+}
+
 TopicPublishers::TopicPublishers(const ros::NodeHandle& node, std::string reference_frame,
-                                 std::optional<std::vector<std::string>> pair_topics)
+                                 std::optional<std::vector<std::string>> pair_topics,
+                                 const ConstraintOptions& constraints)
     : node_(node),
       reference_frame_(std::move(reference_frame)),
       pair_topics_(node_, std::move(pair_topics)),
+      groups_(node_, reference_frame_),
       nearest_(WatchedTopic::advertise<Nearest>(node_, "nearest", kQueueLength)),
       nearest_distance_(WatchedTopic::advertise<std_msgs::Float64>(node_, "nearest_distance", kQueueLength)),
       distances_(WatchedTopic::advertise<Distances>(node_, "distances", kQueueLength)),
@@ -115,6 +106,7 @@ TopicPublishers::TopicPublishers(const ros::NodeHandle& node, std::string refere
       markers_(WatchedTopic::advertise<visualization_msgs::MarkerArray>(node_, "markers", kQueueLength)),
       alerts_(WatchedTopic::advertise<Alert>(node_, "alerts", kAlertQueueLength,
                                              [this] { repeat_alerts_ = true; })),
+      constraints_(node_, reference_frame_, constraints),
       drawing_(std::make_unique<SceneMarkers>()) {}
 
 TopicPublishers::~TopicPublishers() = default;
@@ -128,11 +120,23 @@ std::shared_ptr<const ServedScene> TopicPublishers::serve(Scene scene, const Ser
     served->revision = before->revision + 1;
   }
   served->scene = std::make_shared<const Scene>(std::move(scene));
+  served->groups = groups_.serve(*served->scene, before == nullptr ? nullptr : &before->groups);
   served->marker_style = style;
   static const PairTopicList kNoTopics;
   served->topics = pair_topics_.topicsOf(*served->scene, before == nullptr ? nullptr : before->scene.get(),
                                          before == nullptr ? kNoTopics : before->topics);
   return served;
+}
+
+void TopicPublishers::takeJoints(const ServedScene& served) {
+  std::shared_ptr<const SceneKinematics> joints;
+  std::string problem;
+  try {
+    joints = jointsOf(served);
+  } catch (const Error& error) {
+    problem = error.what();
+  }
+  constraints_.setScene(std::move(joints), problem);
 }
 
 void TopicPublishers::readDemand(const ServedScene& served, const MarkerOptions& markers) {
@@ -141,9 +145,12 @@ void TopicPublishers::readDemand(const ServedScene& served, const MarkerOptions&
   niches_wanted_ = niches_.isWatched();
   contacts_wanted_ = contacts_.isWatched();
   alerts_wanted_ = alerts_.isWatched();
+  groups_.readDemand(served.groups);
   own_wanted_ = std::any_of(served.topics.begin(), served.topics.end(), [](const auto& own) {
     return own && (own->distance.isWatched() || own->niches.isWatched() || own->contacts.isWatched());
   });
+  constraints_.readDemand();
+  if (constraints_.isWanted()) takeJoints(served);
   const bool markers_watched = markers_.isWatched();
   if (!markers_watched) {
     drawing_->forget();
@@ -167,18 +174,21 @@ PairDemand TopicPublishers::demandOf(const ServedScene& served, std::size_t plac
   const bool contacts = (contacts_wanted_ || own.contacts.isWatched()) && settings.effects.any();
   PairDemand pair;
   pair.due = nearest_wanted_ || distances_wanted_ || niches_wanted_ || alert || own_niches || contacts ||
-             own.distance.isWatched() || (markers_wanted_ && are_markers_due_);
+             own.distance.isWatched() || groups_.wants(served.groups, tracked) ||
+             (markers_wanted_ && are_markers_due_);
+  const bool rows = constraints_.concerns(tracked);
+  pair.due = pair.due || rows;
   pair.watched = pair.due || markers_wanted_;
   pair.effects = contacts || (contact_markers_wanted_ && settings.effects.any());
   // A contact's id is its niche's.
-  pair.niches = niches_wanted_ || own_niches || pair.effects ||
+  pair.niches = niches_wanted_ || own_niches || rows || pair.effects ||
                 (markers_wanted_ && drawing_->demand().wantsNiches(tracked.origin->name));
   return pair;
 }
 
 bool TopicPublishers::isIdle() const {
   return !nearest_wanted_ && !distances_wanted_ && !niches_wanted_ && !contacts_wanted_ && !alerts_wanted_ &&
-         !own_wanted_ && !markers_wanted_ && !markers_due_;
+         groups_.isIdle() && !own_wanted_ && !markers_wanted_ && !markers_due_ && !constraints_.isWanted();
 }
 
 PublishReport TopicPublishers::publish(const ServedScene& served, const PublishedPairs& pairs,
@@ -209,6 +219,7 @@ PublishReport TopicPublishers::publish(const ServedScene& served, const Publishe
     }
   }
   publishNearest(pairs, others, now);
+  groups_.publish(*served.scene, served.revision, served.groups, pairs, others, now);
   publishAlerts(pairs);
   publishContacts(served, pairs, now);
   if (markers_due_) {
@@ -229,14 +240,14 @@ void TopicPublishers::publishAlerts(const PublishedPairs& pairs) {
   const bool repeat = repeat_alerts_.exchange(false);
   for (const auto& pair : pairs) {
     if (pair->tracked->warning_changed || (repeat && pair->tracked->warning.state() != WarningState::Clear)) {
-      alerts_.publish(boost::make_shared<Alert>(toAlert(*pair, toMessage(*pair).nearest)));
+      alerts_.publish(boost::make_shared<Alert>(toAlert(*pair)));
     }
   }
 }
 
 void TopicPublishers::publishRetired(const PublishedPairs& pairs) {
   for (const auto& pair : pairs) {
-    alerts_.publish(boost::make_shared<Alert>(toAlert(*pair, toMessage(*pair).nearest)));
+    alerts_.publish(boost::make_shared<Alert>(toAlert(*pair)));
   }
 }
 

@@ -11,7 +11,11 @@
 #include <string>
 #include <vector>
 
+#include "base/made_once.h"
+#include "concave_distance/kinematics/scene_kinematics.h"
 #include "concave_distance/scene/scene.h"
+#include "constraint_topic.h"
+#include "group_topics.h"
 #include "pair_topics.h"
 #include "ros/markers/marker_style.h"
 #include "ros/messages/published_pair.h"
@@ -25,11 +29,16 @@ class SceneMarkers;
 /// A scene together with the topics of its pairs: what one cycle works on.
 struct ServedScene {
   std::shared_ptr<const Scene> scene;
-  PairTopicList topics;                 ///< one per scene->pairs: only listed pairs have topics
+  PairTopicList topics;  ///< one per scene->pairs: only listed pairs have topics
+  ServedGroups groups;
   MarkerStyle marker_style;             ///< as configured
   std::uint64_t settings_revision = 0;  ///< another one: the settings of pairs that were there have changed
   std::uint64_t revision = 0;           ///< another one: another scene
+  MadeOnce<std::shared_ptr<const SceneKinematics>> joints;  ///< see jointsOf()
 };
+
+/// The joints of its robots, made when they are first asked for. @throws Error as SceneKinematics
+std::shared_ptr<const SceneKinematics> jointsOf(const ServedScene& served);
 
 /// Counts what was built and sent in one cycle.
 struct PublishReport {
@@ -51,7 +60,8 @@ class TopicPublishers {
  public:
   /// @param pair_topics patterns of the pairs with their own topics, see PairTopicKeeper
   TopicPublishers(const ros::NodeHandle& node, std::string reference_frame,
-                  std::optional<std::vector<std::string>> pair_topics);
+                  std::optional<std::vector<std::string>> pair_topics,
+                  const ConstraintOptions& constraints = {});
   ~TopicPublishers();
 
   /// Advertises the topics of pairs that have none yet; those of pairs that are gone end with the last
@@ -75,10 +85,16 @@ class TopicPublishers {
   PublishReport publish(const ServedScene& served, const PublishedPairs& pairs, const OtherPairs& others,
                         double marker_lifetime, ros::Time now);
 
+  /// Publishes the rows of constraints, where they are wanted.
+  void publishConstraints(const ConstraintInput& input, ros::Time now) { constraints_.publish(input, now); }
+  /// The clock has jumped back: rows begin anew.
+  void restart() { constraints_.reset(); }
+
   /// The alerts of pairs that left the scene (DistanceCycle::takeRetired).
   void publishRetired(const PublishedPairs& pairs);
 
  private:
+  void takeJoints(const ServedScene& served);
   void publishAlerts(const PublishedPairs& pairs);
   /// @return how many markers
   std::size_t publishMarkers(const ServedScene& served, const PublishedPairs& pairs, double lifetime,
@@ -91,6 +107,7 @@ class TopicPublishers {
   ros::NodeHandle node_;
   std::string reference_frame_;
   PairTopicKeeper pair_topics_;
+  GroupPublishers groups_;
   WatchedTopic nearest_;
   WatchedTopic nearest_distance_;
   WatchedTopic distances_;
@@ -98,6 +115,7 @@ class TopicPublishers {
   WatchedTopic contacts_;
   WatchedTopic markers_;
   WatchedTopic alerts_;
+  ConstraintTopic constraints_;
   std::atomic<bool> repeat_alerts_{false};  ///< somebody has subscribed to the alerts
   // readDemand found these for this cycle.
   bool nearest_wanted_ = false;

@@ -12,6 +12,20 @@ inline double microsecondsSince(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start).count();
 }
 
+/// Milliseconds that `act` takes.
+template <typename Act>
+double millisecondsOf(const Act& act) {
+  const auto start = std::chrono::steady_clock::now();
+  act();
+  return 1e-3 * microsecondsSince(start);
+}
+
+/// The instant so many seconds from now.
+inline std::chrono::steady_clock::time_point instantIn(double seconds) {
+  using Clock = std::chrono::steady_clock;
+  return Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
+}
+
 /// Microseconds of the fastest of as many runs as fit into a third of a second.
 template <typename Run>
 double fastest(const Run& run) {

@@ -5,12 +5,16 @@
 #include <concave_distance/Distances.h>
 #include <concave_distance/GetDistance.h>
 #include <concave_distance/ListBodies.h>
+#include <concave_distance/Nearest.h>
 #include <concave_distance/SceneMoves.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <set>
 
 #include "node_access.h"
 #include "tf_player.h"
@@ -131,17 +135,87 @@ class Operations : public ::testing::Test {
   Collector<Alert> alerts_{kNode + "alerts"};
 };
 
-TEST_F(Operations, PickAPartCarryItAndPutItDown) {
+/// Where the boxes of edge 1 are, and what the robot holds: the answers without the node.
+struct Boxes {
+  using Centre = std::array<double, 2>;  ///< x and y; all have z = 0
+  std::map<std::string, Centre> centres{{"base", {-20.0, 0.0}}, {"tip", {0.0, 0.0}}, {"shelf", {1.6, 5.0}}};
+  std::set<std::string> robot{"base", "tip"};
+
+  double between(const std::string& a, const std::string& b) const {
+    const auto gap = [&](std::size_t axis) {
+      return std::max(0.0, std::abs(centres.at(a)[axis] - centres.at(b)[axis]) - 1.0);
+    };
+    return std::hypot(gap(0), gap(1));
+  }
+  /// The nearest two of which the robot is, or holds, one.
+  std::pair<std::set<std::string>, double> nearestToRobot() const {
+    std::pair<std::set<std::string>, double> nearest{{}, std::numeric_limits<double>::infinity()};
+    for (const auto& [a, centre_a] : centres) {
+      for (const auto& [b, centre_b] : centres) {
+        if (robot.count(a) == 0 || robot.count(b) != 0 || between(a, b) >= nearest.second) continue;
+        nearest = {{a, b}, between(a, b)};
+      }
+    }
+    return nearest;
+  }
+};
+
+/// The same with what the node says of the group `robot` after each step.
+class Picking : public Operations {
+ protected:
+  /// The group's nearest pair is that of the boxes, and the group's alerts since the last step are these.
+  void expectRobot(const std::vector<std::uint8_t>& states) {
+    const auto [bodies, distance] = boxes.nearestToRobot();
+    EXPECT_TRUE(nearest.waitFor([&, bodies = bodies, distance = distance](const Nearest& message) {
+      return std::set<std::string>{message.body_a, message.body_b} == bodies && message.is_minimum != 0 &&
+             std::abs(message.distance - distance) < 1e-9 && std::abs(message.lower_bound - distance) < 1e-9;
+    })) << distance;
+    if (!states.empty()) {
+      EXPECT_TRUE(
+          robot_alerts.match([&](const Alert& alert) { return alert.state == states.back(); }).has_value());
+    }
+    const std::vector<Alert> alerts = robot_alerts.all();
+    ASSERT_EQ(alerts.size(), states.size());
+    for (std::size_t i = 0; i < states.size(); ++i) {
+      EXPECT_EQ(alerts[i].group, "robot");
+      EXPECT_EQ(alerts[i].state, states[i]);
+      if (states[i] != Alert::WARNING) continue;
+      EXPECT_EQ((std::set<std::string>{alerts[i].nearest.body_a, alerts[i].nearest.body_b}), bodies);
+      EXPECT_NEAR(alerts[i].nearest.distance, distance, 1e-9);
+    }
+    robot_alerts.clear();
+  }
+  void move(double x, double y) {
+    const Boxes::Centre by = {x - boxes.centres["tip"][0], y - boxes.centres["tip"][1]};
+    for (const std::string& name : boxes.robot) {
+      if (name == "base") continue;
+      boxes.centres[name][0] += by[0];
+      boxes.centres[name][1] += by[1];
+    }
+    moveTip(x, y);
+  }
+
+  Boxes boxes;
+  Collector<Nearest> nearest{kNode + "groups/robot/nearest"};
+  Collector<Alert> robot_alerts{kNode + "groups/robot/alerts"};
+};
+
+TEST_F(Picking, PickAPartCarryItAndPutItDown) {
   edit(box("part", 1.6));
+  boxes.centres["part"] = {1.6, 0.0};
   EXPECT_TRUE(shows("part/tip", 0.6));
-  moveTip(0.4, 0.0);
+  expectRobot({});
+  move(0.4, 0.0);
   EXPECT_TRUE(alerts("part/tip", Alert::WARNING));
   EXPECT_TRUE(shows("part/tip", 0.2));
+  expectRobot({Alert::WARNING});
 
   const ApplySceneResponse attached = edit(operation(SceneOperation::ATTACH, "part", "tip"));
+  boxes.robot.insert("part");
   EXPECT_TRUE(alerts("part/tip", Alert::CLEAR)) << "what is gripped may be touched";
   EXPECT_TRUE(hides("part/tip", attached.revision));
   EXPECT_TRUE(shows("part/shelf", 4.0)) << "it can reach the shelf from now on";
+  expectRobot({Alert::CLEAR});
   for (const BodyInfo& body : call<ListBodies>(kNode + "list_bodies", {}).bodies) {
     if (body.name != "part") continue;
     EXPECT_EQ(body.frame_id, "tip");
@@ -149,23 +223,30 @@ TEST_F(Operations, PickAPartCarryItAndPutItDown) {
     EXPECT_NEAR(body.pose.position.x, 1.2, 1e-12);
   }
 
-  moveTip(0.4, 3.8);
+  move(0.4, 3.8);
   EXPECT_TRUE(alerts("part/shelf", Alert::WARNING));
   EXPECT_TRUE(shows("part/shelf", 0.2));
+  expectRobot({Alert::WARNING});
 
   edit(operation(SceneOperation::DETACH, "part"));
+  boxes.robot.erase("part");
   EXPECT_TRUE(alerts("part/shelf", Alert::CLEAR)) << "neither moves any more";
   EXPECT_TRUE(alerts("part/tip", Alert::WARNING)) << "as before it was gripped";
   EXPECT_TRUE(shows("part/tip", 0.2));
+  expectRobot({});  // it was in warning, and is
 
-  moveTip(-3.0, 3.8);
+  move(-3.0, 3.8);
   EXPECT_TRUE(alerts("part/tip", Alert::CLEAR));
   EXPECT_NEAR(distanceOf("part", "shelf"), 0.2, 1e-9) << "it stays where it was put";
+  expectRobot({Alert::CLEAR});
 
-  moveTip(0.4, 3.8);
+  move(0.4, 3.8);
   EXPECT_TRUE(alerts("part/tip", Alert::WARNING));
+  expectRobot({Alert::WARNING});
   edit(operation(SceneOperation::REMOVE, "part"));
+  boxes.centres.erase("part");
   EXPECT_TRUE(alerts("part/tip", Alert::CLEAR));
+  expectRobot({Alert::CLEAR});
 }
 
 TEST_F(Operations, AddBodiesOfManyShapes) {

@@ -3,10 +3,8 @@
 #include <urdf_model/model.h>
 
 #include <Eigen/Geometry>
-#include <optional>
 
-#include "concave_distance/mesh/surface/mass_properties.h"
-#include "robot_description.h"
+#include "robot_joint.h"
 
 namespace concave_distance::detail {
 
@@ -14,8 +12,5 @@ namespace concave_distance::detail {
 
 Eigen::Isometry3d toIsometry(const urdf::Pose& pose);
 RobotJoint toJoint(const urdf::Joint& joint);
-
-/// Returns the inertia about the centre of mass, in the link's axes: in the URDF the tensor has its own axes.
-std::optional<MassProperties> inertiaOf(const urdf::Link& link);
 
 }  // namespace concave_distance::detail

@@ -1,4 +1,4 @@
-#include "loading/frame_name.h"
+#include "kinematics/frame_name.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "loading/message_capture.h"
+#include "kinematics/message_capture.h"
 
 #include <gtest/gtest.h>
 

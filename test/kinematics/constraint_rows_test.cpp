@@ -1,0 +1,314 @@
+#include "concave_distance/kinematics/constraint_rows.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <set>
+
+#include "concave_distance/base/error.h"
+#include "support/box_scene.h"
+#include "support/count_allocations.h"
+#include "support/row_differences.h"
+#include "support/scene_fixture.h"
+
+namespace concave_distance::constraint_rows_test {
+namespace {
+
+constexpr double kTilt = 1e-5;
+
+/// A box of 0.2 m that is tilted about x and y, raised and turned above a plate that is on no robot.
+std::string tiltingRobot(const std::string& geometry) {
+  const auto link = [](const std::string& name, const std::string& content = "") {
+    return "<link name='" + name + "'>" + content + "</link>";
+  };
+  return "<robot name='tilter'>" + link("floor") + link("mast") + link("gimbal") + link("table") +
+         link("cube", "<collision>" + geometry + "</collision>") +
+         test::movingJoint("raise", "prismatic", "floor", "mast", "<axis xyz='0 0 1'/>") +
+         test::movingJoint("tilt_x", "revolute", "mast", "gimbal", "<axis xyz='1 0 0'/>") +
+         test::movingJoint("tilt_y", "revolute", "gimbal", "table", "<axis xyz='0 1 0'/>") +
+         test::movingJoint("slide", "prismatic", "table", "cube", "<axis xyz='1 0 0'/>") + "</robot>";
+}
+
+class ConstraintRowsTest : public test::SceneTest {
+ protected:
+  void setUp(const std::string& plate, std::uint32_t capacity = 16,
+             const std::string& geometry = "<geometry><box size='0.2 0.2 0.1'/></geometry>") {
+    options.descriptions["robot"] = tiltingRobot(geometry);
+    scene =
+        load("robots:\n  - {description: robot}\nbodies:\n  - {name: plate, frame: world, " + plate + "}\n");
+    joints = std::make_shared<const SceneKinematics>(scene);
+    tracker.setScene(scene);
+    state = joints->startState();
+    ConstraintSettings settings;
+    settings.distance = 0.5;
+    settings.capacity = capacity;
+    rows.emplace(joints, settings);
+  }
+  void cycle(double raise, double tilt_x, double tilt_y, double slide = 0.0) {
+    joints->evaluate(Eigen::Vector4d(raise, tilt_x, tilt_y, slide), state);
+    time += 0.01;
+    tracker.update(state.world_from_body, time);
+    rows->update(tracker.pairs(), state, time);
+  }
+  std::vector<std::size_t> used() const {
+    std::vector<std::size_t> slots;
+    for (std::size_t i = 0; i < rows->rows().size(); ++i) {
+      if (rows->rows()[i].state == SlotState::Used) slots.push_back(i);
+    }
+    return slots;
+  }
+
+  Scene scene;
+  std::shared_ptr<const SceneKinematics> joints;
+  SceneTracker tracker{{1, nullptr}};
+  SceneState state;
+  std::optional<ConstraintRows> rows;
+  double time = 0.0;
+};
+
+constexpr const char* kPlate = "box: {size: [2, 2, 0.1]}, pose: {xyz: [0, 0, -0.05]}";
+
+/// The heights of the lower corners of the cube above the plate, and how they change with the joints.
+struct Corner {
+  double height;
+  Eigen::RowVector4d gradient;
+};
+Corner cornerAt(const Eigen::Vector4d& joints, double x, double y) {
+  const double px = x + joints[3];
+  const double cx = std::cos(joints[1]);
+  const double sx = std::sin(joints[1]);
+  const double cy = std::cos(joints[2]);
+  const double sy = std::sin(joints[2]);
+  // z of Rx * Ry * (px, y, -0.05): Ry first, then Rx.
+  const double z = -sy * px - 0.05 * cy;
+  const double dz = -cy * px + 0.05 * sy;
+  return {joints[0] + sx * y + cx * z, {1.0, cx * y - sx * z, cx * dz, -cx * sy}};
+}
+
+TEST_F(ConstraintRowsTest, GivesTheCornersOfFacesThatAreNearlyParallel) {
+  setUp(kPlate);
+  std::mt19937 engine(1);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  for (int trial = 0; trial < 1000; ++trial) {
+    const double size = trial == 0 ? 0.0 : 5.0 * kTilt;
+    const Eigen::Vector4d at(0.2 + 0.1 * unit(engine), size * unit(engine), size * unit(engine),
+                             0.2 * unit(engine));
+    cycle(at[0], at[1], at[2], at[3]);
+    const auto slots = used();
+    ASSERT_EQ(slots.size(), 4U) << at.transpose();
+    std::set<std::pair<bool, bool>> seen;
+    for (const std::size_t slot : slots) {
+      const ConstraintRow& row = rows->rows()[slot];
+      const Eigen::Vector3d& in_cube =
+          row.pair->body_a->name == "cube" ? row.point_a_in_frame : row.point_b_in_frame;
+      ASSERT_NEAR(std::abs(in_cube.x()), 0.1, 1e-12);
+      ASSERT_NEAR(std::abs(in_cube.y()), 0.1, 1e-12);
+      seen.insert({in_cube.x() > 0.0, in_cube.y() > 0.0});
+      const Corner corner = cornerAt(at, in_cube.x(), in_cube.y());
+      ASSERT_NEAR(row.value, corner.height, 1e-13);
+      const Eigen::RowVector4d found = rows->jacobian().row(static_cast<Eigen::Index>(slot));
+      ASSERT_LT((found - corner.gradient).cwiseAbs().maxCoeff(), 1e-11) << found << "\n" << corner.gradient;
+    }
+    ASSERT_EQ(seen.size(), 4U);
+  }
+}
+
+TEST_F(ConstraintRowsTest, GivesTheEndsOfACylinderThatLiesNearlyLevel) {
+  setUp(kPlate, 16,
+        "<origin rpy='1.5707963267948966 0 0'/><geometry><cylinder radius='0.05' length='0.2'/></geometry>");
+  std::mt19937 engine(2);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  for (int trial = 0; trial < 200; ++trial) {
+    const Eigen::Vector4d at(0.2 + 0.1 * unit(engine), 5.0 * kTilt * unit(engine), 2.0 * unit(engine), 0.0);
+    cycle(at[0], at[1], at[2], at[3]);
+    ASSERT_EQ(used().size(), 2U) << at.transpose();
+    for (const std::size_t slot : used()) {
+      const ConstraintRow& row = rows->rows()[slot];
+      const bool is_a = row.pair->body_a->name == "cube";
+      const Eigen::Vector3d& on_cylinder = is_a ? row.point_a_in_frame : row.point_b_in_frame;
+      ASSERT_NEAR(std::abs(on_cylinder.y()), 0.1, 1e-12);
+      // The end of the axis is at y, and the side hangs 0.05 below it, across the tilted axis.
+      const double y = on_cylinder.y();
+      const double cosine = std::cos(at[1]);
+      ASSERT_NEAR(row.value, at[0] + std::sin(at[1]) * y - 0.05 * cosine, 1e-13);
+      const Eigen::RowVector4d found = rows->jacobian().row(static_cast<Eigen::Index>(slot));
+      const Eigen::RowVector4d expected(1.0, cosine * y + 0.05 * std::sin(at[1]), 0.0,
+                                        -cosine * std::sin(at[2]));
+      ASSERT_LT((found - expected).cwiseAbs().maxCoeff(), 1e-11) << found << "\n" << expected;
+    }
+  }
+}
+
+TEST_F(ConstraintRowsTest, GivesTheRimOfACylinderThatStandsNearlyUpright) {
+  setUp(kPlate, 16, "<geometry><cylinder radius='0.1' length='0.1'/></geometry>");
+  std::mt19937 engine(3);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  for (int trial = 0; trial < 200; ++trial) {
+    const double size = trial == 0 ? 0.0 : 3.0 * kTilt;
+    const Eigen::Vector4d at(0.2 + 0.1 * unit(engine), size * unit(engine), size * unit(engine),
+                             0.2 * unit(engine));
+    cycle(at[0], at[1], at[2], at[3]);
+    ASSERT_GE(used().size(), 3U) << at.transpose();
+    ASSERT_LE(used().size(), 9U) << "eight corners and the closest points, which lie between two of them";
+    for (const std::size_t slot : used()) {
+      const ConstraintRow& row = rows->rows()[slot];
+      const Eigen::Vector3d& in_cube =
+          row.pair->body_a->name == "cube" ? row.point_a_in_frame : row.point_b_in_frame;
+      ASSERT_LE(in_cube.head<2>().norm(), 0.1 + 1e-12);
+      const Corner corner = cornerAt(at, in_cube.x(), in_cube.y());
+      ASSERT_NEAR(row.value, corner.height, 1e-13);
+      const Eigen::RowVector4d found = rows->jacobian().row(static_cast<Eigen::Index>(slot));
+      ASSERT_LT((found - corner.gradient).cwiseAbs().maxCoeff(), 1e-11) << found << "\n" << corner.gradient;
+    }
+  }
+}
+
+// One row for the niche would move its point by 0.2 m.
+TEST_F(ConstraintRowsTest, KeepsTheRowsOfAPatchInTheirSlotsWhereItTiltsToTheOtherSide) {
+  setUp(kPlate);
+  cycle(0.2, kTilt, kTilt);
+  const auto slots = used();
+  ASSERT_EQ(slots.size(), 4U);
+  std::vector<ConstraintRow> before = rows->rows();
+  Eigen::MatrixXd gradients = rows->jacobian();
+  for (int k = 1; k <= 20; ++k) {
+    cycle(0.2, kTilt * (1.0 - 0.1 * k), kTilt * std::cos(k));
+    ASSERT_EQ(used(), slots);
+    for (const std::size_t slot : slots) {
+      const ConstraintRow& row = rows->rows()[slot];
+      EXPECT_EQ(row.age, static_cast<std::uint64_t>(k));
+      EXPECT_LT((row.point_b_in_frame - before[slot].point_b_in_frame).norm(), 1e-5);
+      EXPECT_LT(std::abs(row.value - before[slot].value), 1e-5);
+    }
+    EXPECT_LT((rows->jacobian() - gradients).cwiseAbs().maxCoeff(), 1e-4);
+    before = rows->rows();
+    gradients = rows->jacobian();
+  }
+}
+
+TEST_F(ConstraintRowsTest, GivesTheCornersOfTwoFacesThatOverlapInPart) {
+  setUp("box: {size: [0.2, 0.2, 0.1]}, pose: {xyz: [0.1, 0.05, -0.05], rpy: [0, 0, 0.3]}");
+  cycle(0.2, 0.0, 0.0);
+  const auto slots = used();
+  EXPECT_GE(slots.size(), 4U);
+  EXPECT_LE(slots.size(), 8U);
+  for (const std::size_t slot : slots) {
+    const ConstraintRow& row = rows->rows()[slot];
+    EXPECT_NEAR(row.value, 0.15, 1e-12);
+    EXPECT_NEAR(std::abs(row.normal.z()), 1.0, 1e-9);
+    EXPECT_LT((row.point_a - row.point_b).head<2>().norm(), 1e-9);
+  }
+}
+
+TEST_F(ConstraintRowsTest, GivesTheEndsOfAnEdgeThatIsParallelToAFace) {
+  setUp(kPlate);
+  cycle(0.3, 0.3, 0.0);
+  ASSERT_EQ(used().size(), 2U);
+  for (const std::size_t slot : used()) {
+    const ConstraintRow& row = rows->rows()[slot];
+    EXPECT_NEAR(std::abs(row.point_a.x()), 0.1, 1e-12);
+  }
+}
+
+TEST_F(ConstraintRowsTest, SaysHowFastOtherBodiesAndRootsApproach) {
+  setUp(kPlate);
+  cycle(0.3, 0.2, 0.1);
+  EXPECT_TRUE(std::isnan(rows->rows()[used().front()].drift)) << "no pose before this one";
+  cycle(0.31, 0.2, 0.1);
+  EXPECT_NEAR(rows->rows()[used().front()].drift, 0.0, 1e-12) << "a joint alone moved";
+  const std::size_t plate = *scene.findBody("plate");
+  state.world_from_body[plate] =
+      Eigen::Isometry3d(Eigen::Translation3d(0, 0, 0.002)) * *state.world_from_body[plate];
+  cycle(0.31, 0.2, 0.1);
+  EXPECT_NEAR(rows->rows()[used().front()].drift, 0.2, 1e-9) << "the plate came closer by 2 mm in 10 ms";
+  state.robots[0].world_from_link.front() = Eigen::Translation3d(0, 0, 0.001);
+  cycle(0.31, 0.2, 0.1);
+  EXPECT_NEAR(rows->rows()[used().front()].drift, -0.1, 1e-9) << "the robot was lifted by 1 mm";
+}
+
+TEST_F(ConstraintRowsTest, GoOnThroughEditsOfTheScene) {
+  setUp(kPlate);
+  cycle(0.3, 0.2, 0.1);
+  const auto slots = used();
+  Scene edited;
+  SceneBody first = unitBox("first");
+  edited = scene;
+  edited.bodies = {};
+  edited.bodies.push_back(first);
+  for (const SceneBody& body : scene.bodies) edited.bodies.push_back(body);
+  const std::size_t plate = *edited.findBody("plate");
+  edited.bodies.edit(plate).frame_from_body =
+      Eigen::Translation3d(0, 0, 0.002) * Eigen::Isometry3d::Identity();
+  joints = std::make_shared<const SceneKinematics>(edited);
+  tracker.setScene(edited);
+  rows->setScene(joints);
+  const SceneState old = state;
+  EXPECT_THROW(rows->update(tracker.pairs(), old, time), Error) << "a state of the scene before";
+  state = joints->startState();
+  cycle(0.3, 0.2, 0.1);
+  EXPECT_EQ(used(), slots);
+  EXPECT_EQ(rows->rows()[slots.front()].age, 1U);
+  EXPECT_NEAR(rows->rows()[slots.front()].drift, 0.2, 1e-9) << "the edit has lifted the plate by 2 mm";
+}
+
+TEST_F(ConstraintRowsTest, ReportsRowsWithoutASlot) {
+  setUp(kPlate, 3);
+  cycle(0.2, 2.0 * kTilt, kTilt);
+  EXPECT_EQ(rows->overflow(), 1U);
+  ASSERT_EQ(used().size(), 3U);
+  double farthest = 0.0;
+  for (const double x : {-0.1, 0.1}) {
+    for (const double y : {-0.1, 0.1}) {
+      farthest = std::max(farthest, cornerAt({0.2, 2.0 * kTilt, kTilt, 0.0}, x, y).height);
+    }
+  }
+  for (const std::size_t slot : used()) EXPECT_LT(rows->rows()[slot].value, farthest - 1e-7);
+}
+
+TEST_F(ConstraintRowsTest, FreesRowsOfBodiesThatAreNowhereAndMarksTheirSlots) {
+  setUp(kPlate);
+  cycle(0.2, 0.1, 0.2);
+  const auto slots = used();
+  ASSERT_FALSE(slots.empty());
+  state.world_from_body[*scene.findBody("plate")].reset();
+  cycle(0.2, 0.1, 0.2);
+  EXPECT_TRUE(used().empty());
+  EXPECT_EQ(rows->rows()[slots.front()].state, SlotState::Freed);
+  EXPECT_EQ(rows->rows()[slots.front()].pair, nullptr);
+  EXPECT_TRUE(rows->jacobian().isZero(0.0));
+}
+
+TEST_F(ConstraintRowsTest, AllocatesNothingInAWarmCycle) {
+  setUp(kPlate);
+  const auto move = [&] {
+    for (int i = 0; i < 20; ++i) cycle(0.2, kTilt * std::cos(i), kTilt * std::sin(i), 0.01 * i);
+  };
+  move();
+  move();
+  const std::size_t before = allocations;
+  move();
+  EXPECT_EQ(allocations, before);
+}
+
+TEST_F(ConstraintRowsTest, RefusesSettingsThatGiveNoRows) {
+  setUp(kPlate);
+  for (const ConstraintSettings& wrong :
+       {ConstraintSettings{0.0, 8}, ConstraintSettings{-1.0, 8}, ConstraintSettings{NAN, 8},
+        ConstraintSettings{0.1, 0}, ConstraintSettings{0.1, 100'001}}) {
+    EXPECT_THROW(ConstraintRows(joints, wrong), Error);
+  }
+}
+
+TEST(ConstraintRows, AreTheDifferencesOfDistancesOfThreeRobots) {
+  constexpr double kDistance = 0.2;
+  for (const test::RowScene& given : test::rowScenes(kDistance)) {
+    const test::RowDifferences found = test::differencesAtRandom(given, kDistance, 40, 7);
+    EXPECT_GT(found.rows, 40U) << given.name;
+    EXPECT_LT(found.unclear, found.entries / 100) << given.name;
+    EXPECT_LT(found.worst, 1e-6) << given.name;
+  }
+}
+
+}  // namespace
+}  // namespace concave_distance::constraint_rows_test
