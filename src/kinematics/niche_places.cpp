@@ -21,6 +21,11 @@ constexpr std::size_t kPairLimitOfSets = 4096;
 constexpr double kSameDistance = 1e-12;
 
 NichePlace placeOf(const TrackedNiche& niche) {
+  const SignedPlace& in_overlap = niche.signed_place;
+  // Where the bare bodies overlap, the gradient of the depth acts at its pivot.
+  if (in_overlap.value <= 0.0)
+    return {in_overlap.pivot_in_a, in_overlap.pivot_in_a, in_overlap.gradient_in_a, niche.signed_distance,
+            false};
   NichePlace place{niche.point_a_in_a, niche.point_b_in_a, niche.normal_in_a, niche.signed_distance, false};
   if (std::isnan(place.value)) {
     place.value = 0.0;

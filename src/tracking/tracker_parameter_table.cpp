@@ -60,6 +60,10 @@ ParameterTable<T> ofTheNiches() {
       flag<T>(
           "hidden", [](auto& t) -> auto& { return t.hidden; },
           "report niches whose segment meets a surface too, flagged"),
+      flag<T>(
+          "signed_values", [](auto& t) -> auto& { return t.signed_values; },
+          "give each niche a signed value through contact, with its gradient: the distance, or minus the "
+          "depth of the overlap"),
       count<T>(
           "seed", [](auto& t) -> auto& { return t.seed; },
           "of the random streams: one seed gives one answer, for any number of threads"),
