@@ -24,7 +24,6 @@ constexpr std::size_t kRandomPoses = 20;
 constexpr double kHalfTurn = 3.141592653589793;  // rad
 constexpr std::uint64_t kSeed = 1;
 constexpr std::size_t kMostNamed = 8;
-constexpr std::size_t kFewPairs = 1000;      // all of which may be solved at any distance
 constexpr std::size_t kMostTried = 100'000;  // pairs: those of a robot of 450 links
 constexpr double kEnoughToBeApart = 0.9;     // of the distance: the proof ends with a bound above 0
 

@@ -9,19 +9,19 @@
 #include "base/content_hash.h"
 #include "base/number_text.h"
 #include "concave_distance/base/error.h"
+#include "kinematics/wording.h"
 #include "mesh/surface/primitive_table.h"
+#include "robot_at_rest.h"
 #include "saved_rules.h"
 #include "saved_settings.h"
 #include "scene/body_pool.h"
 #include "select_pairs.h"
-#include "wording.h"
 #include "yaml_text.h"
 
 namespace concave_distance::detail {
 namespace {
 
 constexpr std::size_t kMegabyte = 1'000'000;
-constexpr std::size_t kFewPairs = 1000;  // more need a cutoff when they are loaded
 
 // Vertices and triangles in their order, numbers to the last bit.
 std::string objText(const TriangleSoup& soup) {

@@ -6,7 +6,7 @@
 
 #include "body_spec_reader.h"
 #include "concave_distance/base/error.h"
-#include "frame_name.h"
+#include "kinematics/frame_name.h"
 #include "scene/name_pattern.h"
 #include "settings_reader.h"
 #include "simulation_reader.h"

@@ -7,9 +7,9 @@
 
 #include "base/number_text.h"
 #include "concave_distance/loading/load_scene.h"
+#include "kinematics/wording.h"
 #include "loading/saved_scene.h"
 #include "loading/scene_files.h"
-#include "loading/wording.h"
 #include "respond.h"
 #include "ros/tf/frames_now.h"
 #include "scene/reload_scene.h"
