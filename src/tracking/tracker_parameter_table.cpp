@@ -60,10 +60,6 @@ ParameterTable<T> ofTheNiches() {
       flag<T>(
           "hidden", [](auto& t) -> auto& { return t.hidden; },
           "report niches whose segment meets a surface too, flagged"),
-      flag<T>(
-          "signed_values", [](auto& t) -> auto& { return t.signed_values; },
-          "give each niche a signed value through contact, with its gradient: the distance, or minus the "
-          "depth of the overlap"),
       count<T>(
           "seed", [](auto& t) -> auto& { return t.seed; },
           "of the random streams: one seed gives one answer, for any number of threads"),
@@ -83,6 +79,10 @@ ParameterTable<T> expertParameters() {
       flag<T>(
           "keep_through_material", [](auto& t) -> auto& { return t.keep_through_material; },
           "report niches whose segment runs through material too, flagged"),
+      flag<T>(
+          "signed_values", [](auto& t) -> auto& { return t.signed_values; },
+          "give each niche a signed value through contact, with its gradient: the distance, or minus the "
+          "depth of the overlap"),
       number<T>(
           "inherited_per_niche", [](auto& t) -> auto& { return t.inherited_per_niche; },
           "trial points that a niche hands on to the next cycle")
