@@ -11,8 +11,9 @@ namespace {
 /// Heights within this share of the smaller body are level: two faces of its size may be tilted by as many
 /// radians.
 constexpr double kLevelShare = 1e-4;
-/// What is level within that, but not within rounding, has corners where it is longer than this share: what
-/// is shorter moves a niche's points by so little, and small facets of a curved surface are always level.
+/// A place that is level within that, but not within rounding, has corners where it is longer than this
+/// share: a shorter one moves a niche's points by so little, and small facets of a curved surface are always
+/// level.
 constexpr double kLeastShare = 0.05;
 /// Triangle pairs that are looked at where the cycle has found a point, or a segment or patch.
 constexpr std::size_t kPairLimitOfPoints = 256;

@@ -73,7 +73,7 @@ Attachment attachmentOf(const AttachmentSpec& attached, const SceneBody& body,
   return made;
 }
 
-// What an edit moves a body with; attached ones go with their parents.
+// An edit moves a body alone or with its carrier; attached ones go with their parents.
 std::uint64_t carrierOf(std::size_t body, const Parents& parents, const Scene& scene) {
   auto at = parents.find(body);
   while (at != parents.end() && at->second) {

@@ -198,7 +198,7 @@ void noteOpenBodies(Scene& scene) {
   }
 }
 
-// Those that no group of the file has taken the name of.
+// A group of the file that has the name of a robot's takes its place.
 std::set<std::string> groupsOfRobots(const std::map<std::string, std::vector<std::string>>& groups,
                                      const SceneSpec& spec) {
   std::set<std::string> names;

@@ -88,7 +88,7 @@ double diagonalAt(const Scene& scene, const Poses& poses) {
   return box.isEmpty() ? 0.0 : box.diagonal().norm();
 }
 
-// Of the largest robot in its zero pose; 0 without one.
+// The scene's largest robot counts, in its zero pose; without one the diagonal is 0.
 double largestDiagonal(const Scene& scene) {
   double diagonal = 0.0;
   for (const auto& robot : scene.robots) {

@@ -26,7 +26,7 @@ std::string savedListed(const Scene& scene, const ScenePair& pair) {
   items.add("between", yamlTexts({a.name, b.name}));
   if (pair.name != a.pairLabel() + "/" + b.pairLabel()) items.add("name", yamlText(pair.name));
   if (!pair.enabled || !rule.is_enabled) items.add("enabled", flag(pair.enabled));
-  // Whether the rule applies too depends on filters.
+  // Filters decide whether the rule applies too.
   addSettings(pair.settings, {&scene.defaults.pairs, &settingsOf(scene, rule)}, items);
   return "  - " + items.flow() + "\n";
 }

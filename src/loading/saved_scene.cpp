@@ -73,7 +73,7 @@ class SceneWriter {
     return items;
   }
 
-  // What robots and bodies may say each for itself.
+  // Robots and bodies may say this each for itself.
   void addOverDefaults(const std::optional<double>& max_edge_length, const std::optional<double>& chord_error,
                        const Material& material, YamlItems& items) const {
     if (max_edge_length != scene_.defaults.max_edge_length)

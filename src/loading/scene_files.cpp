@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Nothing else that lies there is ever replaced.
+// Only a file that an earlier save has written may be replaced.
 void requireReplaceable(const std::string& path, bool overwrite) {
   std::error_code ignored;
   if (!fs::exists(fs::symlink_status(path, ignored))) return;

@@ -50,7 +50,7 @@ struct Sides {
   bool isOrdered() const { return entry != nullptr && entry->is_ordered; }
   bool isWatched() const { return entry == nullptr || entry->is_watched; }
   bool hold(std::size_t source_a, std::size_t source_b) const { return a[source_a] && b[source_b]; }
-  /// Of two sources, the earlier one first.
+  /// @param earlier the one of two sources that comes first
   bool holdPair(std::size_t earlier, std::size_t later) const {
     return hold(earlier, later) || (!isOrdered() && hold(later, earlier));
   }

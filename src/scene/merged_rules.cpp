@@ -140,7 +140,7 @@ class Merge {
     return place->second = static_cast<std::uint32_t>(rules.settings.size() - 1);
   }
 
-  // The same pair in another scene, listed or by its rule.
+  // Returns this pair in another scene, listed or by its rule.
   std::optional<ScenePair> sameIn(const Scene& scene, const Places& places, std::uint64_t a,
                                   std::uint64_t b) const {
     const auto place_a = placeIn(places, a);
@@ -166,7 +166,7 @@ class Merge {
     for (const ScenePair& pair : edited_.pairs) {
       const std::uint64_t a = edited_.bodies[pair.body_a].serial;
       const std::uint64_t b = edited_.bodies[pair.body_b].serial;
-      // What the file listed and lists no more is gone.
+      // A pair that the file lists no more is gone.
       if (isListed(fresh_, in_fresh_, a, b) || isListed(loaded_, in_loaded_, a, b)) continue;
       const auto loaded = sameIn(loaded_, in_loaded_, a, b);
       const auto fresh = sameIn(fresh_, in_fresh_, a, b);

@@ -111,7 +111,7 @@ class Reload {
   }
 
  private:
-  // Whether a body is the one that was loaded, however it was edited since.
+  // Returns whether a body is the one that was loaded, however it was edited since.
   bool isOfFile(const SceneBody& body) const {
     const SceneBody* loaded = bodyNamed(loaded_, body.name);
     return loaded != nullptr && loaded->serial == body.serial;
@@ -254,7 +254,7 @@ class Reload {
     body.attachment = nullptr;
   }
 
-  // What is attached to a body goes with it where that is somewhere else than before.
+  // Attached bodies go with their parent where that is somewhere else than before.
   void followParent(std::size_t place, Scene& scene) {
     const std::shared_ptr<const Attachment> attachment = scene.bodies[place].attachment;
     if (!attachment || attachment->parent_serial == 0) return;

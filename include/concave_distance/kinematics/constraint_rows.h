@@ -37,7 +37,7 @@ struct ConstraintRow {
   Eigen::Vector3d normal = Eigen::Vector3d::Constant(kNotComputed);   ///< from A to B
   Eigen::Vector3d point_a = Eigen::Vector3d::Constant(kNotComputed);  ///< metres
   Eigen::Vector3d point_b = Eigen::Vector3d::Constant(kNotComputed);
-  /// The same in the frames of the bodies (SceneBody::frame): the links, for bodies on robots.
+  /// The points in the frames of the bodies (SceneBody::frame): the links, for bodies on robots.
   Eigen::Vector3d point_a_in_frame = Eigen::Vector3d::Constant(kNotComputed);
   Eigen::Vector3d point_b_in_frame = Eigen::Vector3d::Constant(kNotComputed);
   /// m/s, positive when approaching: the part of the closing speed that is of other bodies and of the roots

@@ -79,7 +79,7 @@ MeshRoots meshRoots(const NodeParameters& parameters) {
   return parseMeshRoots(entries, "~mesh_roots");
 }
 
-// Of the scene file by default; empty: none.
+// The scene file's folder is the default; an empty name means that nothing may be saved.
 std::string saveFolder(const NodeParameters& parameters) {
   if (parameters.save_folder == "off") return "";
   if (!parameters.save_folder.empty() || parameters.scene_file.empty()) return parameters.save_folder;
