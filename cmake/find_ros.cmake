@@ -18,6 +18,7 @@ set(CONCAVE_DISTANCE_ROS_PACKAGES
   tf2
   tf2_eigen
   tf2_ros
+  topic_tools
   visualization_msgs)
 
 set(CONCAVE_DISTANCE_ROS_FOUND OFF)

@@ -161,6 +161,12 @@ RobotSpec readRobotSpec(const YamlValue& value, const BodyDefaults& defaults) {
   return robot;
 }
 
+void readLooks(YamlMap& map, BodySpec& body) {
+  if (auto v = map.take("label")) body.label = readLabel(*v);
+  if (auto v = map.take("colour")) body.colour = readColour(*v);
+  if (auto v = map.take("margin")) body.margin = readMargin(*v);
+}
+
 BodySpec readBodySpec(const YamlValue& value, const BodyDefaults& defaults) {
   YamlMap map(value, "a map with name, frame and a geometry");
   BodySpec body;
@@ -180,9 +186,7 @@ BodySpec readBodySpec(const YamlValue& value, const BodyDefaults& defaults) {
   if (auto v = map.take("moved")) body.is_moved = v->boolean();
   if (auto v = map.take("attached")) body.attached = readAttachment(*v);
   if (auto v = map.take("added")) body.added = readAdded(*v);
-  if (auto v = map.take("label")) body.label = readLabel(*v);
-  if (auto v = map.take("colour")) body.colour = readColour(*v);
-  if (auto v = map.take("margin")) body.margin = readMargin(*v);
+  readLooks(map, body);
   readOverDefaults(map, defaults, description.max_edge_length, description.chord_error, body.material);
   map.finish();
   return body;

@@ -23,6 +23,9 @@ void requirePairName(const YamlValue& value, const std::string& name);
 /// Takes the keys about bodies from `defaults`; the caller calls finish().
 void readBodyDefaults(YamlMap& map, BodyDefaults& defaults);
 
+/// Takes a body's `label`, `colour` and `margin`; the caller calls finish().
+void readLooks(YamlMap& map, BodySpec& body);
+
 /// One entry of `robots`. @throws Error for what is wrong with it
 RobotSpec readRobotSpec(const YamlValue& value, const BodyDefaults& defaults);
 

@@ -141,8 +141,7 @@ SceneBody build(const BodySource& source, const std::shared_ptr<BodyPool>& pool,
   body.repair = loaded.report;
   body.mesh = loaded.mesh;
   body.bounds = boundsOf(*body.mesh);
-  // A robot's margin is for all its links, also those that are smaller.
-  if (!source.is_robot_link) requireMargin(source.source, body.margin, *body.mesh);
+  if (limitsMargin(body)) requireMargin(source.source, body.margin, *body.mesh);
   return body;
 }
 

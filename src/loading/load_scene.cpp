@@ -230,6 +230,9 @@ Scene assemble(const SceneSpec& spec, SceneParts parts, const SceneLoadOptions& 
   // Before the costly part, so that a mistake in the file is reported at once.
   PairSelection selection = detail::selectPairs(spec, parts, options.limits.pairs);
   detail::limitImports(parts, options.mesh_import);
+  for (detail::BodySource& source : parts.sources) {
+    if (source.cloud && !options.clouds) source.problem = "nobody receives it";
+  }
   Scene scene;
   scene.rigid = parts.rigid;
   scene.pool = options.pool ? options.pool : std::make_shared<BodyPool>(spec.metric_memory_limit);
@@ -260,6 +263,9 @@ Scene assemble(const SceneSpec& spec, SceneParts parts, const SceneLoadOptions& 
       if (const auto added = selection.added.find(built[i].body->name); added != selection.added.end())
         built[i].body->added_rule = added->second;
       scene.bodies.push_back(std::move(*built[i].body));
+    } else if (parts.sources[i].cloud && !options.clouds) {
+      scene.notes.push_back("cloud '" + parts.sources[i].name +
+                            "' is left out, because only the node receives clouds");
     } else {
       scene.problems.push_back({parts.sources[i].source, "body '" + parts.sources[i].name +
                                                              "' is not served: " + built[i].problem + "; " +

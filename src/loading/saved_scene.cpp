@@ -50,7 +50,8 @@ class SceneWriter {
       const double megabytes = static_cast<double>(scene_.pool->metricMemory()->limit() / kMegabyte);
       text += "metric_memory_limit_mb: " + yamlNumber(megabytes) + "\n";
     }
-    text += section("robots", robots()) + section("bodies", bodies()) + section("groups", groups());
+    text += section("robots", robots()) + section("bodies", bodies()) + section("clouds", clouds()) +
+            section("groups", groups());
     text += section("rigid_frames", rigidFrames()) + savedPairs(scene_) + section("disable", disabled());
     remark();
     result_.files.insert(result_.files.begin(), {stem_ + ".yaml", std::move(text)});
@@ -131,9 +132,44 @@ class SceneWriter {
   std::string bodies() {
     std::string lines;
     for (const SceneBody& body : scene_.bodies) {
-      if (!body.is_robot_link) lines += this->body(body).block("  - ", "    ");
+      if (!body.is_robot_link && !body.cloud) lines += this->body(body).block("  - ", "    ");
     }
     return lines;
+  }
+
+  std::string clouds() const {
+    std::string lines;
+    for (const SceneBody& body : scene_.bodies) {
+      if (body.cloud) lines += savedCloud(body).block("  - ", "    ");
+    }
+    return lines;
+  }
+
+  YamlItems savedCloud(const SceneBody& body) const {
+    const CloudSettings& settings = *body.cloud->settings;
+    YamlItems items;
+    items.add("name", yamlText(body.name));
+    items.add("topic", yamlText(settings.topic));
+    items.add("frame", yamlText(body.frame));
+    items.add("voxel_size", yamlNumber(settings.voxel_size));
+    items.add("range", yamlNumber(settings.range));
+    items.add("rate", yamlNumber(settings.rate));
+    items.add("stale_after", yamlNumber(settings.stale_after));
+    items.add("padding", yamlNumber(settings.padding));
+    if (!settings.leave_out.empty()) items.add("leave_out", yamlTexts(settings.leave_out));
+    if (settings.niches) items.add("niches", "true");
+    items.add("largest_voxel_count", std::to_string(settings.largest_voxel_count));
+    addLooks(body, items);
+    return items;
+  }
+
+  void addLooks(const SceneBody& body, YamlItems& items) const {
+    if (body.margin != 0.0) items.add("margin", yamlNumber(body.margin));
+    if (body.colour != SceneBody().colour) {
+      const Eigen::Vector4d& c = body.colour;
+      items.add("colour", yamlNumbers({c[0], c[1], c[2], c[3]}));
+    }
+    if (body.pairLabel() != bodyLabel(body.name)) items.add("label", yamlText(body.pairLabel()));
   }
 
   YamlItems body(const SceneBody& body) {
@@ -166,12 +202,7 @@ class SceneWriter {
       rule.add(body.added_rule->all ? "all_but" : "only", yamlTexts(namesOf(body.added_rule->bodies)));
       items.add("added", rule.flow());
     }
-    if (body.margin != 0.0) items.add("margin", yamlNumber(body.margin));
-    if (body.colour != SceneBody().colour) {
-      const Eigen::Vector4d& c = body.colour;
-      items.add("colour", yamlNumbers({c[0], c[1], c[2], c[3]}));
-    }
-    if (body.pairLabel() != bodyLabel(body.name)) items.add("label", yamlText(body.pairLabel()));
+    addLooks(body, items);
     addOverDefaults(body.origin->max_edge_length, body.origin->chord_error, body.material, items);
     return items;
   }

@@ -168,6 +168,7 @@ void addBody(const BodySpec& spec, const std::string& base_folder, SceneParts& p
   source.label = spec.label;
   source.frame_from_body = spec.frame_from_body;
   if (spec.is_moved) source.carrier = source.serial;
+  source.cloud = spec.cloud;
   addSource(std::move(source), spec.where, "give it another name", parts);
 }
 

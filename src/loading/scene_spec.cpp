@@ -5,6 +5,7 @@
 #include <map>
 
 #include "body_spec_reader.h"
+#include "cloud_spec_reader.h"
 #include "concave_distance/base/error.h"
 #include "kinematics/frame_name.h"
 #include "scene/name_pattern.h"
@@ -143,7 +144,7 @@ PreparationCachePointer readCache(const YamlValue& value, const std::string& bas
 
 SceneSpec readSceneSpec(const std::string& yaml, const std::string& file, const std::string& base_folder,
                         const SceneLoadOptions& options) {
-  YamlMap map(YamlValue::parse(yaml, file), "a map with robots, bodies, groups, pairs, defaults");
+  YamlMap map(YamlValue::parse(yaml, file), "a map with robots, bodies, clouds, groups, pairs, defaults");
   SceneSpec spec;
   spec.defaults.pairs = options.default_settings;
   spec.metric_memory_limit = options.metric_memory_limit;
@@ -179,6 +180,12 @@ SceneSpec readSceneSpec(const std::string& yaml, const std::string& file, const 
     for (const YamlValue& item : v->list("a list of bodies")) {
       spec.bodies.push_back(readBodySpec(item, body_defaults));
       body_names.add(spec.bodies.back().description.name, "body", spec.bodies.back().where);
+    }
+  }
+  if (auto v = map.take("clouds")) {
+    for (const YamlValue& item : v->list("a list of clouds")) {
+      spec.bodies.push_back(readCloudSpec(item));
+      body_names.add(spec.bodies.back().description.name, "cloud", spec.bodies.back().where);
     }
   }
   if (auto v = map.take("groups")) spec.groups = readGroups(*v, body_names);

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -59,6 +60,7 @@ struct BodySpec {
   bool is_moved = false;                                              ///< as by an edit
   std::optional<AttachmentSpec> attached;
   std::optional<AddedSpec> added;
+  std::shared_ptr<const CloudState> cloud;  ///< of an entry of `clouds`
 };
 
 struct GroupSpec {

@@ -34,8 +34,7 @@ void setMargin(Scene& scene, const SceneOperation& operation) {
   }
   for (const std::size_t index : bodies) {
     const SceneBody& body = scene.bodies[index];
-    // A robot's margin is for all its links, also those that are smaller.
-    if (!body.is_robot_link && body.mesh)
+    if (limitsMargin(body) && body.mesh)
       requireMargin("body '" + body.name + "'", operation.margin, *body.mesh);
   }
   for (const std::size_t index : bodies) scene.bodies.edit(index).margin = operation.margin;

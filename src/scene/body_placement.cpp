@@ -28,6 +28,9 @@ std::size_t requireMovable(const Scene& scene, const std::string& name) {
   if (scene.bodies[index].is_robot_link) {
     throw Error(whereOf(name), "it is a link of a robot, which tf moves", "move the robot's joints");
   }
+  if (scene.bodies[index].cloud) {
+    throw Error(whereOf(name), "it is a cloud, which stands where the sensor sees it", "move the sensor");
+  }
   return index;
 }
 

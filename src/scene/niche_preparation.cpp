@@ -1,29 +1,17 @@
 #include "niche_preparation.h"
 
-#include <sys/resource.h>
-#include <sys/syscall.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <iterator>
 #include <system_error>
 #include <utility>
 
+#include "base/give_way.h"
 #include "base/helper_threads.h"
 #include "concave_distance/search/prepare_search.h"
 #include "distance/niches/convex_pair.h"
 #include "mesh/trees/normal_cone_tree.h"
 
 namespace concave_distance {
-namespace {
-
-/// Steps of `nice` for the calling thread; without the right to it nothing changes.
-void giveWay() {
-  constexpr int kSteps = 5;
-  setpriority(PRIO_PROCESS, static_cast<id_t>(syscall(SYS_gettid)), kSteps);
-}
-
-}  // namespace
 
 PreparationTask::PreparationTask(std::shared_ptr<const BodyMesh> a, std::shared_ptr<const BodyMesh> b,
                                  const TrackerParameters& parameters)

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "body_placement.h"
+#include "cloud_bodies.h"
 #include "concave_distance/base/error.h"
 #include "merged_rules.h"
 #include "scene_edits.h"
@@ -86,6 +87,10 @@ void takePlacement(const SceneBody& from, SceneBody& body) {
   body.attachment = from.attachment;
 }
 
+bool areOneCloud(const SceneBody& l, const SceneBody& r) {
+  return l.cloud && r.cloud && *l.cloud->settings == *r.cloud->settings && l.frame == r.frame;
+}
+
 class Reload {
  public:
   Reload(const Scene& current, Scene fresh, const FramesNow& frames, ReloadReport& report)
@@ -128,7 +133,8 @@ class Reload {
         if (loaded == nullptr) report_.added.push_back(body.name);
         continue;
       }
-      const bool is_same = edited->mesh == body.mesh && edited->is_robot_link == body.is_robot_link;
+      const bool is_same = (edited->mesh == body.mesh || areOneCloud(*edited, body)) &&
+                           edited->is_robot_link == body.is_robot_link;
       (is_same ? fresh : before)
           .emplace(is_same ? body.serial : edited->serial, is_same ? edited->serial : body.serial);
       (is_same ? report_.kept : report_.replaced).push_back(body.name);
@@ -139,9 +145,19 @@ class Reload {
     for (const SceneBody& body : edited_.bodies) {
       if (!isOfFile(body)) added_.insert(body.name);
     }
+    keepClouds();
     renumber(fresh_, fresh);
     renumber(edited_, before);
     renumber(loaded_, before);
+  }
+
+  // What a sensor sees goes on.
+  void keepClouds() {
+    for (std::size_t i = 0; i < fresh_.bodies.size(); ++i) {
+      const SceneBody* edited = bodyNamed(edited_, fresh_.bodies[i].name);
+      if (edited == nullptr || !isOfFile(*edited) || !areOneCloud(*edited, fresh_.bodies[i])) continue;
+      takeCloud(fresh_.bodies.edit(i), *edited->cloud, edited->mesh, edited->frame_from_body);
+    }
   }
 
   Scene withoutEdits() {
@@ -228,7 +244,7 @@ class Reload {
     if (loaded == nullptr) return;
     if (edited->margin != loaded->margin) {
       try {
-        if (!body.is_robot_link) requireMargin("body '" + body.name + "'", edited->margin, *body.mesh);
+        if (limitsMargin(body)) requireMargin("body '" + body.name + "'", edited->margin, *body.mesh);
         scene.bodies.edit(place).margin = edited->margin;
       } catch (const Error& error) {
         report_.dropped.push_back("margin of '" + body.name + "': " + error.whatIsWrong());

@@ -154,13 +154,13 @@ void SceneTracker::prepareAhead(const Scene& scene) {
   if (!preparation_ || triangles > kMostTrianglesAhead) return;
   try {
     for (const auto& pair : pairs_) {
-      if (pair->origin->enabled) isPrepared(*pair);
+      if (pair->origin->enabled && hasNiches(*pair->body_a) && hasNiches(*pair->body_b)) isPrepared(*pair);
     }
     // Which of the others will be near is not known: each mesh once, as if against itself.
     const TrackerParameters& parameters = scene.defaults.pairs.tracker;
     for (const SceneBody& body : scene.bodies) {
       const bool may_be_near = body.pair_class != 0 || body.added_rule;
-      if (!may_be_near || !provesDistance(parameters.accuracy)) continue;
+      if (!may_be_near || !provesDistance(parameters.accuracy) || !hasNiches(body)) continue;
       preparation_->addAhead(body.mesh, parameters);
     }
   } catch (const std::bad_alloc&) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/constants.h"
 #include "concave_distance/scene/broad_phase.h"
 #include "niche_preparation.h"
 
@@ -45,6 +46,10 @@ bool TrackedPair::locate(const PairInput& next, const std::atomic<bool>* stop) {
   box_bound.reset();
   if (!input.located) {
     endWithoutAnswer(PairState::NotLocated);
+    return false;
+  }
+  if (isEmptyCloud(*body_a) || isEmptyCloud(*body_b)) {
+    stayBeyond(kInfinity);
     return false;
   }
   if (std::isfinite(settings.tracker.cutoff)) {

@@ -127,6 +127,7 @@ const std::vector<std::string>& foldersFromTheGround() {
                                                    "ros/markers",
                                                    "ros/topics",
                                                    "ros/services",
+                                                   "ros/clouds",
                                                    "ros/node",
                                                    "ros/demo"};
   return folders;

@@ -19,6 +19,7 @@
 #include "concave_distance/mesh/repair/repair_mesh.h"
 #include "concave_distance/mesh/surface/mass_properties.h"
 #include "concave_distance/scene/broad_phase.h"
+#include "concave_distance/scene/cloud.h"
 #include "concave_distance/scene/named_list.h"
 #include "concave_distance/scene/pair_rules.h"
 #include "concave_distance/scene/rigid_frames.h"
@@ -72,9 +73,26 @@ struct SceneBody {
   std::uint32_t pair_class = 0;                     ///< row of Scene::rules
   std::shared_ptr<const AddedBodyRule> added_rule;  ///< nullptr: it came with the scene
   std::shared_ptr<const BodyOrigin> origin;         ///< nullptr: not known, it cannot be saved
+  std::shared_ptr<const CloudState> cloud;          ///< nullptr: it is not made of what a sensor sees
 
   const std::string& pairLabel() const { return label.empty() ? name : label; }
 };
+
+/// Returns whether a body's size limits its margin: a robot's is for all its links, also those that are
+/// smaller, and how large a cloud will be nobody knows.
+inline bool limitsMargin(const SceneBody& body) {
+  return !body.is_robot_link && !body.cloud;
+}
+
+/// Returns whether a body is a cloud that has come, and nothing is there: it is infinitely far from all.
+inline bool isEmptyCloud(const SceneBody& body) {
+  return body.cloud && body.cloud->stamp && !body.cloud->hasVoxels();
+}
+
+/// Returns whether lists of all pairs' niches have those of a body's pairs: of a cloud on request.
+inline bool hasNiches(const SceneBody& body) {
+  return !body.cloud || body.cloud->settings->niches;
+}
 
 /// Checks a margin that a person has given for a body.
 /// @throws Error naming `where` for one that is negative, not finite or larger than the body: probably not

@@ -77,6 +77,21 @@ void drawSurface(const SurfaceMesh& surface, double offset, visualization_msgs::
   }
 }
 
+void drawVoxels(const CloudState& cloud, visualization_msgs::Marker& marker) {
+  marker.type = visualization_msgs::Marker::CUBE_LIST;
+  const double size = cloud.voxel_size;
+  marker.scale = toVector(Eigen::Vector3d::Constant(size));
+  if (!cloud.hasVoxels()) {
+    marker.action = visualization_msgs::Marker::DELETE;
+    return;
+  }
+  marker.points.reserve(cloud.cells->size());
+  for (const VoxelCell& cell : *cloud.cells) {
+    const Eigen::Vector3d corner(cell[0], cell[1], cell[2]);
+    marker.points.push_back(toPoint(size * (corner + Eigen::Vector3d::Constant(0.5))));
+  }
+}
+
 visualization_msgs::Marker bodyMarker(const Scene& scene, std::size_t index, const char* ns,
                                       const std_msgs::ColorRGBA& color, double offset) {
   const SceneBody& body = scene.bodies[index];
@@ -86,7 +101,11 @@ visualization_msgs::Marker bodyMarker(const Scene& scene, std::size_t index, con
   marker.pose = toPose(body.frame_from_body);
   marker.frame_locked = 1;
   marker.color = color;
-  drawSurface(body.mesh->surface(), offset, marker);
+  if (body.cloud) {
+    drawVoxels(*body.cloud, marker);
+  } else {
+    drawSurface(body.mesh->surface(), offset, marker);
+  }
   return marker;
 }
 
@@ -135,12 +154,13 @@ std::optional<visualization_msgs::MarkerArray> movedBodyMarkers(const Scene& sho
     const SceneBody& before = shown.bodies[index];
     const SceneBody& body = now.bodies[index];
     if (&before == &body) continue;
-    if (before.name != body.name || before.mesh != body.mesh || before.colour != body.colour ||
-        before.in_robot_model != body.in_robot_model) {
+    if (before.name != body.name || before.colour != body.colour ||
+        before.in_robot_model != body.in_robot_model || (before.mesh != body.mesh && !body.cloud)) {
       return std::nullopt;
     }
-    const bool is_there =
-        before.frame == body.frame && before.frame_from_body.matrix() == body.frame_from_body.matrix();
+    const bool has_same_voxels = !body.cloud || (before.cloud && before.cloud->cells == body.cloud->cells);
+    const bool is_there = before.frame == body.frame && has_same_voxels &&
+                          before.frame_from_body.matrix() == body.frame_from_body.matrix();
     if (!is_there && isDrawn(body, with_collision))
       message.markers.push_back(markerOf(now, index, opacity[index]));
   }

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/number_text.h"
+#include "ros/tf/cloud_age.h"
 #include "ros/time_difference.h"
 
 namespace concave_distance {
@@ -39,9 +40,11 @@ void DistanceCycle::setScene(const Scene& scene, bool settings_changed) {
   }
   std::vector<std::string> body_frames;
   std::vector<Eigen::Isometry3d> body_places;
+  std::vector<Cloud> clouds;
   for (const SceneBody& body : scene.bodies) {
     body_frames.push_back(body.frame);
     body_places.push_back(body.frame_from_body);
+    if (body.cloud) clouds.push_back({body_places.size() - 1, body.name, body.cloud});
   }
   std::unique_ptr<FramePoses> frames;
   if (!frames_->hasFrames(options_.reference_frame, body_frames)) {
@@ -55,6 +58,7 @@ void DistanceCycle::setScene(const Scene& scene, bool settings_changed) {
   // Nothing below allocates: from here on it is the new scene that is followed.
   if (frames) frames_ = std::move(frames);
   frames_->setPlaces(std::move(body_places));
+  clouds_ = std::move(clouds);
   for (std::size_t index = 0; index < places.size(); ++index) {
     if (!next[index]) next[index] = std::move(pairs_[*places[index]]);
     next[index]->tracked = tracker_.pairs()[index];
@@ -89,10 +93,17 @@ CycleCounts DistanceCycle::run(const SceneTracker::DemandOf& demand_of, ros::Tim
                                WorkLimit::Clock::time_point end) {
   for (const auto& pair : pairs_) pair->was_watched = pair->demand().watched;
   frames_->update(*transforms_.current(), now, options_.stale_after);
+  hideUnusableClouds(now);
   const CycleCounts counts = tracker_.update(frames_->poses(), demand_of, end);
   followPairs();
   for (const auto& pair : pairs_) describe(*pair, now);
   return counts;
+}
+
+void DistanceCycle::hideUnusableClouds(ros::Time now) {
+  for (const Cloud& cloud : clouds_) {
+    if (auto why = whyUnusable(cloud.name, *cloud.state, now)) frames_->hide(cloud.body, std::move(*why));
+  }
 }
 
 // Moves the publishers of each pair to the place that the pair has now.
@@ -157,9 +168,12 @@ void DistanceCycle::describe(PublishedPair& pair, ros::Time now) const {
     return;
   }
   if (!tracked.input.located) {
-    pair.status = toStatus(
-        TransformStatus::Stale,
-        describeAge(tracked, options_.reference_frame, secondsBetween(stamp, now), options_.stale_after));
+    const FramePlace& stale = place_a.status == TransformStatus::Stale ? place_a : place_b;
+    pair.status =
+        toStatus(TransformStatus::Stale, !stale.message.empty()
+                                             ? stale.message
+                                             : describeAge(tracked, options_.reference_frame,
+                                                           secondsBetween(stamp, now), options_.stale_after));
     return;
   }
   pair.status = toStatus(TransformStatus::Ok, "");

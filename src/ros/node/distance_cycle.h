@@ -52,6 +52,13 @@ class DistanceCycle {
   PublishedPairs takeRetired();
 
  private:
+  /// A body that is a cloud.
+  struct Cloud {
+    std::size_t body;
+    std::string name;
+    std::shared_ptr<const CloudState> state;
+  };
+  void hideUnusableClouds(ros::Time now);
   void followPairs();
   void describe(PublishedPair& pair, ros::Time now) const;
 
@@ -59,6 +66,7 @@ class DistanceCycle {
   CycleOptions options_;
   SceneTracker tracker_;
   std::unique_ptr<FramePoses> frames_;
+  std::vector<Cloud> clouds_;
   PublishedPairs pairs_;
   PublishedPairs spare_;  ///< of an earlier order, for followPairs()
   PublishedPairs retired_;

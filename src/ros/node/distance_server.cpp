@@ -78,6 +78,7 @@ DistanceServer::DistanceServer(const ros::NodeHandle& node, const ros::NodeHandl
                       {[this](const std::shared_ptr<BodyPool>& pool) { return loadAgain(pool); },
                        [this](const Scene& loaded) { onReloaded(loaded); }}),
       moves_(service_queues_, keeper_, transforms_, parameters_.reference_frame),
+      clouds_(node, keeper_, transforms_, parameters_.transform_timeout),
       runner_(transforms_, keeper_, publishers_, restarts_,
               {parameters_.reference_frame, parameters_.stale_after, parameters_.threads,
                &service_queues_.gate().stopped(), true},
@@ -242,6 +243,9 @@ void DistanceServer::setUpDiagnostics() {
   updater_.add("moves", [this](diagnostic_updater::DiagnosticStatusWrapper& status) {
     describeMoves(moves_.take(), status);
   });
+  updater_.add("clouds", [this](diagnostic_updater::DiagnosticStatusWrapper& status) {
+    describeClouds(clouds_.take(), status);
+  });
   diagnostics_timer_ = startTimer(parameters_.diagnostic_period, "Publishing diagnostics",
                                   &DistanceServer::publishDiagnostics);
 }
@@ -256,6 +260,7 @@ void DistanceServer::doHousekeeping() {
     forgetAutomaticCutoff();
   }
   reportMissingClock();
+  clouds_.follow(*keeper_.served()->scene);
   if (parameters_.show_bodies) body_publisher_.publish(keeper_.served()->scene, parameters_.show_collision);
   reportLateness();
   if (keeper_.waitingFor().empty() && isDue(last_frame_message_, kMessagePeriod)) {

@@ -17,6 +17,7 @@
 #include "cycle_runner.h"
 #include "description_watch.h"
 #include "node_parameters.h"
+#include "ros/clouds/cloud_receiver.h"
 #include "ros/services/distance_queries.h"
 #include "ros/services/move_receiver.h"
 #include "ros/services/operation_services.h"
@@ -89,6 +90,7 @@ class DistanceServer {
   SceneRequest reload_request_;  ///< of the reload that runs, or the last
   StateServices state_services_;
   MoveReceiver moves_;
+  CloudReceivers clouds_;
   CycleRunner runner_;
   diagnostic_updater::Updater updater_;
   CycleWindow window_;  ///< of the diagnostics being published

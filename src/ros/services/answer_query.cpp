@@ -15,6 +15,7 @@
 #include "request_conversions.h"
 #include "ros/messages/contact_conversions.h"
 #include "ros/messages/conversions.h"
+#include "ros/tf/cloud_age.h"
 #include "ros/tf/tf_poses.h"
 #include "scene/scene_edits.h"
 
@@ -99,6 +100,20 @@ PairTransforms locate(const BodyPlace& a, const BodyPlace& b, const QueryContext
   transforms.a_from_b = a.frame_from_body.inverse() * transforms.a_from_b * b.frame_from_body;
   transforms.reference_from_a = transforms.reference_from_a * a.frame_from_body;
   return transforms;
+}
+
+// Says why the clouds among two bodies leave nothing to compute; nothing: they do not.
+std::optional<PairStatus> statusOfClouds(const SceneBody& a, const SceneBody& b, ros::Time now) {
+  for (const SceneBody* body : {&a, &b}) {
+    if (!body->cloud) continue;
+    if (const auto why = whyUnusable(body->name, *body->cloud, now))
+      return toStatus(why->status, why->message);
+  }
+  if (!isEmptyCloud(a) && !isEmptyCloud(b)) return std::nullopt;
+  PairStatus status;
+  status.code = PairStatus::BEYOND_CUTOFF;
+  status.message = "the cloud has no occupied voxel: there is nothing to be near";
+  return status;
 }
 
 // The answer to a query for which the call had no time left.
@@ -192,6 +207,15 @@ QueryAnswer answer(const DistanceQuery& query, const Scene& scene, const QueryCo
     if (query.with_contacts != 0) {
       answer.contacts = emptyContacts(heading, status);
     }
+    return answer;
+  }
+  if (const auto status = statusOfClouds(body_a, body_b, now)) {
+    answer.result = emptyNiches(heading, *status);
+    if (status->code == PairStatus::BEYOND_CUTOFF) {
+      answer.result.nearest.has_lower_bound = 1;
+      answer.result.nearest.lower_bound = std::numeric_limits<double>::infinity();
+    }
+    if (query.with_contacts != 0) answer.contacts = emptyContacts(heading, *status);
     return answer;
   }
   requireRunning(context);

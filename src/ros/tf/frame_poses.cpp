@@ -49,6 +49,7 @@ bool FramePoses::hasFrames(const std::string& reference, const std::vector<std::
 }
 
 void FramePoses::update(const tf2::BufferCore& buffer, ros::Time now, double stale_after) {
+  hidden_.clear();
   if (epoch_.isZero()) epoch_ = epochFor(now);
   if (!is_whole_) buildTree(buffer);
   lookUpEdges(buffer, now);
@@ -56,6 +57,11 @@ void FramePoses::update(const tf2::BufferCore& buffer, ros::Time now, double sta
   chooseTimes();
   lookUpTimes(buffer);
   fillPoses(now);
+}
+
+void FramePoses::hide(std::size_t body, FramePlace why) {
+  poses_.newest[body] = BodyPoses::kUnknown;
+  hidden_.emplace_back(body, std::move(why));
 }
 
 void FramePoses::buildTree(const tf2::BufferCore& buffer) {
@@ -97,6 +103,7 @@ void FramePoses::findPlaces(const tf2::BufferCore& buffer, ros::Time now, double
   for (std::size_t i = 0; i < frames_.size(); ++i) {
     FramePlace& place = places_[i];
     place.status = TransformStatus::Ok;
+    place.message.clear();
     place.stamp = ros::Time();
     const std::size_t ancestor = ancestorOf(node_of_frame_[i], reference_node_);
     bool is_known = ancestor != kNone;

@@ -21,7 +21,7 @@ namespace concave_distance {
 /// Where a body's frame is in one cycle.
 struct FramePlace {
   TransformStatus status = TransformStatus::Missing;
-  std::string message;  ///< why it is Missing
+  std::string message;  ///< why it is Missing, and why a hidden body is Stale
   ros::Time stamp;      ///< the newest time at which it is known in the reference frame; zero: fixed
 };
 
@@ -45,10 +45,17 @@ class FramePoses {
   /// A frame whose newest time is older than `stale_after` seconds is Stale, and unknown to poses(). One that
   /// is ahead of `now` is taken at `now`, where tf has that.
   void update(const tf2::BufferCore& buffer, ros::Time now, double stale_after);
+  /// Makes a body unknown until the next update(). @param why with a status other than Ok
+  void hide(std::size_t body, FramePlace why);
 
   /// Returns the poses of the last update(). Its times are seconds since epoch().
   const BodyPoses& poses() const { return poses_; }
-  const FramePlace& place(std::size_t body) const { return places_[place_of_body_[body]]; }
+  const FramePlace& place(std::size_t body) const {
+    for (const auto& [hidden, why] : hidden_) {
+      if (hidden == body) return why;
+    }
+    return places_[place_of_body_[body]];
+  }
   /// Returns the time at which two bodies are known together; zero: both are fixed.
   ros::Time commonStamp(std::size_t body_a, std::size_t body_b) const;
   /// Returns reference_from_body at the time that it has together with another body.
@@ -88,7 +95,8 @@ class FramePoses {
   std::vector<std::size_t> node_of_frame_;
   bool is_whole_ = false;           ///< every frame is connected with the reference frame
   std::vector<FramePlace> places_;  ///< of frames_
-  std::vector<ros::Time> stamps_;   ///< ascending, at most kMostTimes
+  std::vector<std::pair<std::size_t, FramePlace>> hidden_;  ///< bodies, few
+  std::vector<ros::Time> stamps_;                           ///< ascending, at most kMostTimes
   std::vector<ros::Time> all_stamps_;
   BodyPoses poses_;
   ros::Time epoch_;

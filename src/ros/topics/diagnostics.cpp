@@ -107,6 +107,33 @@ void describeMoves(const MoveReport& report, diagnostic_updater::DiagnosticStatu
   status.add("last refusal", report.last_refusal);
 }
 
+void describeClouds(const std::vector<CloudReport>& clouds,
+                    diagnostic_updater::DiagnosticStatusWrapper& status) {
+  status.summary(DiagnosticStatus::OK, clouds.empty() ? "the scene has no clouds" : "no cloud was refused");
+  for (const CloudReport& cloud : clouds) {
+    if (cloud.refused_lately > 0) {
+      status.summaryf(DiagnosticStatus::WARN, "%llu messages of '%s' were refused; the last: %s",
+                      static_cast<unsigned long long>(cloud.refused_lately), cloud.name.c_str(),
+                      cloud.last_refusal.c_str());
+    } else if (cloud.taken == 0) {
+      status.summaryf(DiagnosticStatus::WARN, "nothing has come on '%s' yet for cloud '%s'",
+                      cloud.topic.c_str(), cloud.name.c_str());
+    } else if (!cloud.remark.empty()) {
+      status.summaryf(DiagnosticStatus::WARN, "cloud '%s': %s", cloud.name.c_str(), cloud.remark.c_str());
+    }
+    const std::string& name = cloud.name;
+    status.add(name + " topic", cloud.topic);
+    status.add(name + " taken", cloud.taken);
+    status.add(name + " passed over for a newer one", cloud.passed_over);
+    status.add(name + " refused", cloud.refused);
+    status.add(name + " last refusal", cloud.last_refusal);
+    status.add(name + " points", cloud.points);
+    status.add(name + " points left out", cloud.left_out);
+    status.add(name + " occupied voxels", cloud.voxels);
+    status.addf(name + " time from message to body (ms)", "%.1f", 1e3 * cloud.seconds);
+  }
+}
+
 void describeEffects(const CycleWindow& window, diagnostic_updater::DiagnosticStatusWrapper& status) {
   const auto& runs = window.total.effects.runs;
   const bool ran = std::any_of(runs.begin(), runs.end(), [](std::uint64_t count) { return count > 0; });

@@ -3,7 +3,9 @@
 #include <diagnostic_updater/diagnostic_updater.h>
 
 #include <string>
+#include <vector>
 
+#include "cloud_report.h"
 #include "concave_distance/scene/scene.h"
 #include "move_report.h"
 #include "ros/tf/transform_receiver.h"
@@ -21,6 +23,9 @@ void describePairs(const CycleWindow& window, diagnostic_updater::DiagnosticStat
 void describeTransforms(const TransformReport& report, diagnostic_updater::DiagnosticStatusWrapper& status);
 /// Moves taken from scene_moves, and those refused (WARN, with the last one's body and reason).
 void describeMoves(const MoveReport& report, diagnostic_updater::DiagnosticStatusWrapper& status);
+/// Messages of clouds taken and refused (WARN, with the last one's reason), and what they were made into.
+void describeClouds(const std::vector<CloudReport>& clouds,
+                    diagnostic_updater::DiagnosticStatusWrapper& status);
 /// Reports how often each stage of the pairs' effects ran and its share of the cycles' processor time.
 void describeEffects(const CycleWindow& window, diagnostic_updater::DiagnosticStatusWrapper& status);
 /// Bodies, pairs and what could not be loaded (WARN), or what is waited for (WARN).

@@ -181,8 +181,10 @@ PairDemand TopicPublishers::demandOf(const ServedScene& served, std::size_t plac
   pair.watched = pair.due || markers_wanted_;
   pair.effects = contacts || (contact_markers_wanted_ && settings.effects.any());
   // A contact's id is its niche's.
-  pair.niches = niches_wanted_ || own_niches || rows || pair.effects ||
-                (markers_wanted_ && drawing_->demand().wantsNiches(tracked.origin->name));
+  pair.niches = own_niches || rows || pair.effects;
+  if (!pair.niches && hasNiches(*tracked.body_a) && hasNiches(*tracked.body_b)) {
+    pair.niches = niches_wanted_ || (markers_wanted_ && drawing_->demand().wantsNiches(tracked.origin->name));
+  }
   return pair;
 }
 

@@ -1,0 +1,36 @@
+#include "cloud_age.h"
+
+#include <cmath>
+
+#include "base/number_text.h"
+#include "ros/time_difference.h"
+
+namespace concave_distance {
+
+std::optional<FramePlace> whyUnusable(const std::string& name, const CloudState& cloud, ros::Time now) {
+  const CloudSettings& settings = *cloud.settings;
+  FramePlace place;
+  if (!cloud.stamp) {
+    place.message = "cloud '" + name + "': nothing has come on '" + settings.topic +
+                    "' yet that could be used (diagnostics, clouds, says why)";
+    return place;
+  }
+  ros::Time stamp;
+  stamp.fromNSec(static_cast<std::uint64_t>(*cloud.stamp));
+  const double age = secondsBetween(stamp, now);
+  if (std::abs(age) <= settings.stale_after) return std::nullopt;
+  TextStream message;
+  message << "cloud '" << name << "' on '" << settings.topic << "' is ";
+  if (age > 0.0) {
+    message << age << " s old";
+  } else {
+    message << -age << " s ahead of the clock";
+  }
+  message << "; its stale_after is " << settings.stale_after << " s";
+  place.status = TransformStatus::Stale;
+  place.message = message.str();
+  place.stamp = stamp;
+  return place;
+}
+
+}  // namespace concave_distance
