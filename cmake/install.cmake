@@ -51,5 +51,5 @@ install(DIRECTORY config meshes urdf DESTINATION ${CONCAVE_DISTANCE_SHARE_DESTIN
 if(CONCAVE_DISTANCE_WITH_ROS)
   install(DIRECTORY launch DESTINATION ${CONCAVE_DISTANCE_SHARE_DESTINATION} COMPONENT node)
   catkin_install_python(PROGRAMS scripts/move_crowd.py scripts/pick_parts.py scripts/show_distances.py
-    scripts/view_robot.py DESTINATION ${CONCAVE_DISTANCE_BIN_DESTINATION})
+    scripts/simulate_camera.py scripts/view_robot.py DESTINATION ${CONCAVE_DISTANCE_BIN_DESTINATION})
 endif()

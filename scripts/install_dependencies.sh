@@ -35,7 +35,7 @@ set -euo pipefail
   debian_demo=(
     python3-roslaunch python3-rospy python3-rosservice python3-rostopic rosbash rviz ros-robot-state-publisher
     python3-rospkg python3-tf2-ros python3-yaml  # scripts/view_robot.py
-    python3-sensor-msgs python3-tf2-msgs  # pick_parts.py, move_crowd.py
+    python3-numpy python3-sensor-msgs python3-tf2-msgs  # pick_parts.py, move_crowd.py, simulate_camera.py
     python3-geometry-msgs python3-shape-msgs python3-std-msgs python3-std-srvs python3-visualization-msgs python3-diagnostic-msgs  # what ours are made of
   )
   debian_plot=(python3-matplotlib python3-yaml valgrind)

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Takes the pictures of the demos in doc/images: starts each scene at rest on a display of its own, waits until rviz
 # draws the same picture twice, and keeps it.
-#   scripts/take_pictures.sh [--output FOLDER] [insertion|contact|simulation|press_fit|robot|interactive|cell|crowd|own_robot ...]   (default: all)
+#   scripts/take_pictures.sh [--output FOLDER] [insertion|contact|simulation|press_fit|robot|interactive|cell|crowd|clouds|own_robot ...]   (default: all)
 # Needs what scripts/demo.sh builds, xvfb, imagemagick and, for own_robot, the robots of dart-doc. ROS_MASTER_URI says on which port; no master may run there.
 set -euo pipefail
 # shellcheck source=scripts/common.sh
@@ -13,13 +13,13 @@ scenes=()
 while [ $# -gt 0 ]; do
   case "$1" in
     --output) output="${2:?--output needs a folder}" && shift ;;
-    insertion | contact | simulation | press_fit | robot | interactive | cell | crowd | own_robot) scenes+=("$1") ;;
+    insertion | contact | simulation | press_fit | robot | interactive | cell | crowd | clouds | own_robot) scenes+=("$1") ;;
     -h | --help) sed -n '2,/^set/s/^# \{0,1\}//p' "${BASH_SOURCE[0]}" && exit 0 ;;
     *) die "unknown argument '$1': see --help" ;;
   esac
   shift
 done
-[ ${#scenes[@]} -gt 0 ] || scenes=(insertion contact simulation press_fit robot interactive cell crowd own_robot)
+[ ${#scenes[@]} -gt 0 ] || scenes=(insertion contact simulation press_fit robot interactive cell crowd clouds own_robot)
 for tool in Xvfb import compare; do
   command -v "$tool" >/dev/null || die "$tool is missing: apt-get install xvfb imagemagick"
 done
@@ -71,6 +71,7 @@ launch_arguments() {
     robot) echo "speed:=0 start:=17.0" ;;
     interactive) echo "idle_motion:=false" ;;
     cell) echo "speed:=0 start:=11.75" ;;  # the hand has taken the part
+    clouds) echo "speed:=0 start:=17.0" ;;
     crowd) echo "speed:=0" ;;
     own_robot) echo "urdf:=/usr/share/doc/dart/data/urdf/drchubo/drchubo.urdf skip_overlapping_pairs:=true" ;;
   esac
