@@ -105,8 +105,8 @@ class ConstraintRows {
   const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>& jacobian() const;
   /// How many rows of the last update() have no slot: the farthest.
   std::size_t overflow() const;
-  /// What may be near without a row, of the last update(). At levels below `certified`, which prove no list,
-  /// only pairs without an answer and rows without a slot are here.
+  /// Lists what may be near without a row, of the last update(). At levels below `certified`, which prove no
+  /// list, only pairs without an answer and rows without a slot are here.
   const std::vector<UnlistedPlaces>& unlisted() const;
   /// A row for each of unlisted(): m/s for a rad/s or m/s at most; columns as those of jacobian().
   const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>& reach() const;

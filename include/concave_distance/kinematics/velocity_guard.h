@@ -12,12 +12,11 @@
 
 namespace concave_distance {
 
-/// What a guard keeps, and what it takes for granted of the robot.
+/// Says what a guard keeps, and what it takes for granted of the robot.
 struct GuardSettings {
-  double margin = 0.02;  ///< metres that every place keeps
-  double reaction_time =
-      0.1;  ///< s from the poses of a row until the robot obeys: its last speed lasts so long
-  double deceleration = 1.0;  ///< m/s^2 that a closing speed falls by at least, once the robot brakes
+  double margin = 0.02;        ///< metres that every place keeps
+  double reaction_time = 0.1;  ///< s from the poses of a row until the robot obeys
+  double deceleration = 1.0;   ///< m/s^2 that a closing speed falls by at least, once the robot brakes
   /// rad/s^2, or m/s^2 of sliding joints: where all joints brake together, the one that takes longest
   /// decides; empty: `deceleration` alone.
   std::optional<double> joint_deceleration;
@@ -25,7 +24,7 @@ struct GuardSettings {
   double rise_time = 0.25;   ///< s that the scale takes from 0 to 1 at least; it falls at once
 };
 
-/// One place that a guard looks at.
+/// Describes one place that a guard looks at.
 struct GuardPlace {
   enum class Kind : std::uint8_t {
     Row,       ///< a place of a known distance
@@ -66,8 +65,8 @@ struct GuardDecision {
   double stopping_distance = kNotComputed;  ///< metres at scale 1
 };
 
-/// The largest scale in [0, 1] with which a place stops before its margin: with s, the robot closes s *
-/// closing for the reaction time and then brakes for s * braking_time, while the drift goes on.
+/// Returns the largest scale in [0, 1] with which a place stops before its margin: with s, the robot closes s
+/// * closing for the reaction time and then brakes for s * braking_time, while the drift goes on.
 ///
 ///     s closing T + s^2 closing braking_time / 2 + drift (T + s braking_time) <= room
 ///

@@ -1,9 +1,6 @@
 #include "guard_server.h"
 
-#include <concave_distance/GuardState.h>
 #include <ros/console.h>
-#include <std_msgs/Float64.h>
-#include <visualization_msgs/Marker.h>
 
 #include <algorithm>
 #include <cmath>
@@ -15,14 +12,8 @@
 namespace concave_distance {
 namespace {
 
-// MoveIt Servo's own collision check has the same queue.
-constexpr std::uint32_t kServoQueueLength = 2;
-constexpr double kGuardLogPeriod = 5.0;    // s, between two warnings
-constexpr double kScaleTextHeight = 0.08;  // m, of a letter
-constexpr int kFrameHops = 100;            // a longer chain of tf frames is a loop
-
-static_assert(GuardState::FREE == static_cast<int>(GuardReason::Free));
-static_assert(GuardState::BAD_COMMAND == static_cast<int>(GuardReason::BadCommand));
+constexpr double kGuardLogPeriod = 5.0;  // s, between two warnings
+constexpr int kFrameHops = 100;          // a longer chain of tf frames is a loop
 
 GuardParameters readGuardParameters(const ros::NodeHandle& node) {
   XmlRpc::XmlRpcValue values;
@@ -52,8 +43,8 @@ GuardServer::GuardServer(const ros::NodeHandle& node, const ros::NodeHandle& pri
       private_node_(private_node),
       parameters_(readGuardParameters(private_node)),
       guard_(parameters_.guard),
+      outputs_(node_, private_node_, parameters_),
       updater_(node, ros::NodeHandle(private_node, "diagnostic_updater"), name) {
-  advertise();
   updater_.setHardwareID("none");
   updater_.add("scale", [this](auto& status) { diagnose(status); });
   subscribe();
@@ -64,27 +55,6 @@ GuardServer::GuardServer(const ros::NodeHandle& node, const ros::NodeHandle& pri
       act(ros::Time::now());
     });
   });
-}
-
-void GuardServer::advertise() {
-  scale_publisher_ = node_.advertise<std_msgs::Float64>(parameters_.scale_topic, kServoQueueLength);
-  state_publisher_ = private_node_.advertise<GuardState>("state", kServoQueueLength, true);
-  marker_publisher_ = private_node_.advertise<visualization_msgs::Marker>("marker", 1);
-  switch (parameters_.command) {
-    case GuardCommandKind::None:
-      break;
-    case GuardCommandKind::JointVelocities:
-      command_publisher_ =
-          private_node_.advertise<std_msgs::Float64MultiArray>("joint_velocities_out", kServoQueueLength);
-      break;
-    case GuardCommandKind::Twist:
-      command_publisher_ =
-          private_node_.advertise<geometry_msgs::TwistStamped>("twist_out", kServoQueueLength);
-      break;
-    case GuardCommandKind::CmdVel:
-      command_publisher_ = private_node_.advertise<geometry_msgs::Twist>("cmd_vel_out", kServoQueueLength);
-      break;
-  }
 }
 
 void GuardServer::subscribe() {
@@ -175,9 +145,14 @@ void GuardServer::act(ros::Time now) {
   const double age = rows_ ? (now - rows_->transforms).toSec() : 0.0;
   words_ = wordsFor(decision, rows_.get(), parameters_.guard, age, fault_);
   if (isFault(decision.reason)) ROS_WARN_STREAM_THROTTLE(kGuardLogPeriod, "The scale is 0: " << words_);
-  publish(decision, now);
-  publishCommand(decision.scale, hasCommand(now) && faultOf(*command_).empty(), now);
-  publishMarker(decision, now);
+  outputs_.publish(decision, rows_.get(), words_, now);
+  if (!command_) return;  // from the first command on: zeros where none comes, or a wrong one
+  const bool is_good = hasCommand(now) && faultOf(*command_).empty();
+  if (parameters_.command == GuardCommandKind::JointVelocities) {
+    outputs_.publishVelocities(is_good ? command_->velocities : std::vector<double>(), decision.scale);
+  } else {
+    outputs_.publishTwist(command_->twist, is_good ? decision.scale : 0.0, now);
+  }
 }
 
 const GuardDecision& GuardServer::decide(ros::Time now) {
@@ -277,72 +252,6 @@ bool GuardServer::hangsOnTwistFrame(const std::string& frame) {
     hangs = at == parameters_.twist_frame;
   }
   return hangs_[frame] = hangs;
-}
-
-void GuardServer::publish(const GuardDecision& decision, ros::Time now) {
-  std_msgs::Float64 scale;
-  scale.data = decision.scale;
-  scale_publisher_.publish(scale);
-  GuardState state;
-  state.header.stamp = now;
-  if (rows_) state.header.frame_id = rows_->header.frame_id;
-  state.scale = decision.scale;
-  state.wanted = decision.wanted;
-  state.reason = static_cast<std::uint8_t>(decision.reason);
-  if (rows_) state.pair = pairOf(decision, *rows_);
-  state.room = decision.room;
-  state.closing = decision.closing;
-  state.stopping_distance = decision.stopping_distance;
-  state.message = words_;
-  state_publisher_.publish(state);
-}
-
-// From the first command on: zeros where none comes, or a wrong one.
-void GuardServer::publishCommand(double scale, bool is_good, ros::Time now) {
-  if (!command_) return;
-  const double factor = is_good ? scale : 0.0;
-  const auto scaled = [factor](double value) { return factor == 0.0 ? 0.0 : factor * value; };
-  if (parameters_.command == GuardCommandKind::JointVelocities) {
-    std_msgs::Float64MultiArray message;
-    message.data.assign(parameters_.joints->size(), 0.0);
-    for (std::size_t i = 0; is_good && i < message.data.size(); ++i) {
-      message.data[i] = scaled(command_->velocities[i]);
-    }
-    command_publisher_.publish(message);
-    return;
-  }
-  geometry_msgs::TwistStamped message;
-  message.header.stamp = now;
-  message.header.frame_id = command_->twist.header.frame_id;
-  for (auto part : {&geometry_msgs::Twist::linear, &geometry_msgs::Twist::angular}) {
-    const geometry_msgs::Vector3& given = command_->twist.twist.*part;
-    geometry_msgs::Vector3& sent = message.twist.*part;
-    sent.x = scaled(given.x);
-    sent.y = scaled(given.y);
-    sent.z = scaled(given.z);
-  }
-  if (parameters_.command == GuardCommandKind::Twist) command_publisher_.publish(message);
-  if (parameters_.command == GuardCommandKind::CmdVel) command_publisher_.publish(message.twist);
-}
-
-void GuardServer::publishMarker(const GuardDecision& decision, ros::Time now) {
-  if (!rows_ || marker_publisher_.getNumSubscribers() == 0) return;
-  visualization_msgs::Marker marker;
-  marker.header.frame_id = rows_->header.frame_id;
-  marker.header.stamp = now;
-  marker.ns = "velocity_guard";
-  marker.type = visualization_msgs::Marker::TEXT_VIEW_FACING;
-  marker.pose.orientation.w = 1.0;
-  marker.pose.position.z = 1.2;
-  if (decision.id < rows_->rows.size()) marker.pose.position = rows_->rows[decision.id].point_a;
-  marker.scale.z = kScaleTextHeight;
-  marker.color.a = 1.0F;
-  marker.color.r = static_cast<float>(1.0 - decision.scale);
-  marker.color.g = static_cast<float>(decision.scale);
-  TextStream text;
-  text << std::round(100.0 * decision.scale) << " % " << pairOf(decision, *rows_);
-  marker.text = text.str();
-  marker_publisher_.publish(marker);
 }
 
 void GuardServer::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {

@@ -15,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include "guard_outputs.h"
 #include "guard_parameters.h"
 #include "message_places.h"
 
@@ -38,7 +39,6 @@ class GuardServer {
   };
 
   void subscribe();
-  void advertise();
   void onConstraints(const Constraints::ConstPtr& message);
   void onVelocities(const std_msgs::Float64MultiArray::ConstPtr& message);
   void onTwist(const geometry_msgs::TwistStamped& message);
@@ -51,9 +51,6 @@ class GuardServer {
   bool hasCommand(ros::Time now) const;
   /// Returns why the command cannot be used; empty: it can.
   std::string faultOf(const Command& command) const;
-  void publish(const GuardDecision& decision, ros::Time now);
-  void publishCommand(double scale, bool is_good, ros::Time now);
-  void publishMarker(const GuardDecision& decision, ros::Time now);
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
 
   std::mutex mutex_;
@@ -61,6 +58,7 @@ class GuardServer {
   ros::NodeHandle private_node_;
   GuardParameters parameters_;
   VelocityGuard guard_;
+  GuardOutputs outputs_;
   MessagePlaces places_;
   Constraints::ConstPtr rows_;
   std::optional<Command> command_;
@@ -70,10 +68,6 @@ class GuardServer {
   std::unique_ptr<tf2_ros::Buffer> buffer_;  ///< nullptr: no twist
   std::unique_ptr<tf2_ros::TransformListener> listener_;
   std::map<std::string, bool> hangs_;  ///< of the decision being made: frames that hang on ~twist_frame
-  ros::Publisher scale_publisher_;
-  ros::Publisher state_publisher_;
-  ros::Publisher command_publisher_;
-  ros::Publisher marker_publisher_;
   ros::Subscriber constraint_subscriber_;
   ros::Subscriber command_subscriber_;
   diagnostic_updater::Updater updater_;

@@ -35,25 +35,25 @@ std::string describeClosing(const GuardDecision& decision, const UnlistedPair* u
   return text.str();
 }
 
+std::string namedIn(const GuardDecision& decision, const Constraints& message) {
+  const UnlistedPair* unlisted = unlistedOf(decision, message);
+  if (unlisted == nullptr || !unlisted->pair.empty()) return "pair " + pairOf(decision, message);
+  return unlisted->body_a.empty() ? "pairs" : "body " + unlisted->body_a;
+}
+
 std::string describePlace(const GuardDecision& decision, const Constraints& message) {
   const UnlistedPair* unlisted = unlistedOf(decision, message);
-  std::string text = "pair " + pairOf(decision, message) + ": ";
-  if (unlisted != nullptr && unlisted->pair.empty()) {
-    text = unlisted->body_a.empty() ? "pairs: " : "body " + unlisted->body_a + ": ";
-  }
+  const std::string why = unlisted == nullptr ? "" : whyUnlisted(unlisted->reason);
   switch (decision.reason) {
     case GuardReason::Closing:
-      text += describeClosing(decision, unlisted);
-      break;
+      return describeClosing(decision, unlisted) + (why.empty() ? "" : "; " + why);
     case GuardReason::Overlaps:
-      return text +
-             "the bodies overlap, in a direction that is not known; set expert/signed_values of the pair";
+      return "the bodies overlap, in a direction that is not known; set expert/signed_values of the pair";
     case GuardReason::NotFinite:
-      return text + "a number of its row is not finite";
+      return "a number of its row is not finite";
     default:
-      if (unlisted == nullptr) return text + "what moves there by itself is not known yet";
+      return unlisted == nullptr ? "what moves there by itself is not known yet" : why;
   }
-  return unlisted != nullptr ? text + "; " + whyUnlisted(unlisted->reason) : text;
 }
 
 }  // namespace
@@ -92,7 +92,7 @@ std::string wordsFor(const GuardDecision& decision, const Constraints* message, 
     default:
       break;
   }
-  return message == nullptr ? "" : describePlace(decision, *message);
+  return message == nullptr ? "" : namedIn(decision, *message) + ": " + describePlace(decision, *message);
 }
 
 }  // namespace concave_distance

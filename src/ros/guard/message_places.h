@@ -31,7 +31,7 @@ class MessagePlaces {
 
   /// @param velocities a number for each of message.joints
   const Places& ofJoints(const Constraints& message, const std::vector<double>& velocities);
-  /// What hangs on the frame closes by the twist; of other links that joints move, the speeds are the
+  /// Bodies that hang on the frame close by the twist; of other links that joints move, the speeds are the
   /// measured ones. @param scale in force while they were measured
   const Places& ofTwist(const Constraints& message, const GuardTwist& twist, double scale);
   /// All speeds are the measured ones. @param scale as above
