@@ -73,7 +73,8 @@ struct TrackedPair {
   std::uint32_t cycles_put_off = 0;  ///< in a row, since the list was finished or had most of a cycle's time
   std::uint32_t cycles_unfinished = 0;           ///< in a row, since the list was finished
   double seconds_to_finish = 0.0;                ///< that finish() is expected to take, by what it last took
-  std::shared_ptr<PreparationTask> preparation;  ///< of its bodies in the background; nullptr: not begun
+  /// Of its bodies, for these settings, in the background or by SceneTracker::prepare(); nullptr: not begun.
+  std::shared_ptr<PreparationTask> preparation;
 
   bool solved() const { return state == PairState::Solved; }
 

@@ -136,9 +136,10 @@ class PlaceSearch {
 
 std::size_t findCorners(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b,
                         const WitnessPair& witness, double tolerance, double least_length,
-                        std::size_t pair_limit, CornerWorkspace& workspace, CornerPairs& corners) {
+                        std::size_t pair_limit, std::size_t ring_limit, CornerWorkspace& workspace,
+                        CornerPairs& corners) {
   const NicheExtent extent =
-      measureExtent(a, b, a_from_b, witness, tolerance, pair_limit, workspace.extent, nullptr);
+      measureExtent(a, b, a_from_b, witness, tolerance, pair_limit, workspace.extent, nullptr, ring_limit);
   if (extent.kind == NicheKind::Point || extent.cut || extent.length < least_length) return 0;
   workspace.hull = workspace.extent.hull;
   keepLargest(workspace.hull, kSamePlace * (a.diameter() + b.diameter()));

@@ -69,15 +69,16 @@ class RoundPlaces {
 
 std::size_t findRoundCorners(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b,
                              const WitnessPair& witness, double tolerance, double least_length,
-                             std::size_t pair_limit, CornerWorkspace& workspace, CornerPairs& corners) {
+                             std::size_t pair_limit, std::size_t ring_limit, CornerWorkspace& workspace,
+                             CornerPairs& corners) {
   const bool a_is_round = a.shape() != nullptr;
   if (a_is_round == (b.shape() != nullptr)) return 0;
   const RoundShape& shape = a_is_round ? *a.shape() : *b.shape();
   if (!detail::hasSide(shape)) return 0;
   const WitnessPair of_meshes =
       refineWitness(a, b, a_from_b, witness.triangle_a, witness.triangle_b, workspace.extent.ring).witness;
-  const std::size_t found =
-      findCorners(a, b, a_from_b, of_meshes, tolerance, least_length, pair_limit, workspace, corners);
+  const std::size_t found = findCorners(a, b, a_from_b, of_meshes, tolerance, least_length, pair_limit,
+                                        ring_limit, workspace, corners);
   const Eigen::Isometry3d a_from_shape =
       a_is_round ? shape.body_from_shape : a_from_b * shape.body_from_shape;
   const Eigen::Isometry3d shape_from_a = a_from_shape.inverse();

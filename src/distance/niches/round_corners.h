@@ -11,6 +11,7 @@ namespace concave_distance {
 /// @return 0 for two round solids and for spheres
 std::size_t findRoundCorners(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b,
                              const WitnessPair& witness, double tolerance, double least_length,
-                             std::size_t pair_limit, CornerWorkspace& workspace, CornerPairs& corners);
+                             std::size_t pair_limit, std::size_t ring_limit, CornerWorkspace& workspace,
+                             CornerPairs& corners);
 
 }  // namespace concave_distance
