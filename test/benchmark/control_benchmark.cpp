@@ -1,7 +1,7 @@
 // A control loop that links the tracker: what its cycles take, and what disturbs them.
 //
 //   control_benchmark [robot] [cell] [ROBOT.urdf[,ROBOT.srdf] ...] [--seconds 60] [--rate 1000] [--threads 1]
-//   [--share 0.8] [--distance 0.1] [--slots 64] [--priority 0] [--core -1] [--unprepared] [--output FILE]
+//   [--share 0.6] [--distance 0.1] [--slots 64] [--priority 0] [--core -1] [--unprepared] [--output FILE]
 //
 // The robot moves as in cycle_benchmark, in real time: the loop sleeps until the next period, computes the
 // poses of joint positions that it has got before, updates the tracker with every pair's niches and, within
@@ -12,6 +12,7 @@
 // context switches, and lists that the end of the cycle put off, how many in a cycle. It has the quantity's
 // median, 99th, 99.9th and 99.99th percentile and largest value, the number of cycles above the period, or
 // above none, and the sum. Then the histogram of times, and the cycles with the most processor time.
+#include <malloc.h>
 #include <sched.h>
 #include <sys/mman.h>
 #include <sys/resource.h>
@@ -23,6 +24,8 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <limits>
+#include <memory>
 #include <numeric>
 #include <string>
 #include <vector>
@@ -45,7 +48,7 @@ struct Settings {
   double seconds = 60.0;
   double rate = 1000.0;
   std::uint32_t threads = 1;
-  double share = 0.8;
+  double share = 0.6;
   ConstraintSettings rows;
   int priority = 0;
   int core = -1;
@@ -54,11 +57,22 @@ struct Settings {
   double period() const { return 1.0 / rate; }
 };
 
-enum Quantity { kWake, kCycle, kProcessor, kAllocations, kFaults, kPreempted, kWaits, kPutOff, kQuantities };
-constexpr std::array<const char*, kQuantities> kNames{"late by (us)", "cycle (us)",   "processor time (us)",
-                                                      "allocations",  "page faults",  "involuntary switches",
-                                                      "waits",        "lists put off"};
-constexpr int kTimes = kProcessor + 1;  // the first quantities
+enum Quantity {
+  kWake,
+  kCycle,
+  kProcessor,
+  kRows,
+  kAllocations,
+  kFaults,
+  kPreempted,
+  kWaits,
+  kPutOff,
+  kQuantities
+};
+constexpr std::array<const char*, kQuantities> kNames{
+    "late by (us)",         "cycle (us)", "processor time (us)", "rows (us)", "allocations", "page faults",
+    "involuntary switches", "waits",      "lists put off"};
+constexpr int kTimes = kRows + 1;  // the first quantities
 
 /// What one cycle has of each.
 using Sample = std::array<float, kQuantities>;
@@ -72,7 +86,17 @@ struct Counters {
   Counters() { getrusage(RUSAGE_THREAD, &usage); }
 };
 
+/// Memory that the loop takes comes from a heap that is there already and does not shrink.
+void reserveHeap() {
+  constexpr std::size_t kBytes = std::size_t{64} << 20U;
+  mallopt(M_MMAP_MAX, 0);
+  mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
+  const std::unique_ptr<char[]> heap(new char[kBytes]);
+  for (std::size_t i = 0; i < kBytes; i += 4096) static_cast<volatile char*>(heap.get())[i] = 1;
+}
+
 void setUpThread(const Settings& settings) {
+  reserveHeap();
   if (mlockall(MCL_CURRENT | MCL_FUTURE) != 0) std::puts("memory is not locked: not allowed");
   if (settings.core >= 0) {
     cpu_set_t cores;
@@ -172,7 +196,9 @@ class ControlLoop {
     const Clock::time_point end =
         settings_.share > 0.0 ? start + std::chrono::duration_cast<Clock::duration>(budget) : kNoCycleEnd;
     const CycleCounts counts = tracker_.update(state_.world_from_body, time, {true, true, true, false}, end);
+    const Clock::time_point tracked = Clock::now();
     rows_.update(tracker_.pairs(), state_, time);
+    sample[kRows] = static_cast<float>(microsecondsSince(tracked));
     sample[kCycle] = static_cast<float>(microsecondsSince(start));
     const Counters after;
     sample[kProcessor] = static_cast<float>(after.processor - before.processor);
@@ -197,7 +223,7 @@ class ControlLoop {
   void printHistogram() const {
     constexpr std::array<double, 14> kBounds{0,   25,  50,  75,  100,  150,  200,
                                              300, 400, 600, 800, 1000, 2000, 5000};
-    std::printf("cycles by time, us:%11s %11s %11s\n", "late by", "cycle", "processor");
+    std::printf("cycles by time, us:%11s %11s %11s %11s\n", "late by", "cycle", "processor", "rows");
     for (std::size_t bin = 0; bin < kBounds.size(); ++bin) {
       const double first = kBounds[bin];
       const double end = bin + 1 < kBounds.size() ? kBounds[bin + 1] : HUGE_VAL;

@@ -25,6 +25,8 @@ using CornerPairs = std::array<CornerPair, kMostCorners + 1>;
 struct CornerWorkspace {
   ExtentWorkspace extent;
   std::vector<Eigen::Vector2d> hull;
+  std::vector<NodeIndex> level;
+  std::vector<bool> is_level;  ///< by node; false between calls
 };
 
 /// Finds the corners of what is level with a niche within `tolerance` (metres, of height above its points):
