@@ -8,7 +8,9 @@
 
 #include "concave_distance/base/error.h"
 #include "support/box_scene.h"
+#include "support/concave_shapes.h"
 #include "support/count_allocations.h"
+#include "support/mesh_variants.h"
 #include "support/row_differences.h"
 #include "support/scene_fixture.h"
 
@@ -34,9 +36,15 @@ class ConstraintRowsTest : public test::SceneTest {
  protected:
   void setUp(const std::string& plate, std::uint32_t capacity = 16,
              const std::string& geometry = "<geometry><box size='0.2 0.2 0.1'/></geometry>") {
+    setUp(loadTilter(plate, geometry), capacity);
+  }
+  Scene loadTilter(const std::string& plate, const std::string& geometry, const std::string& defaults = "") {
     options.descriptions["robot"] = tiltingRobot(geometry);
-    scene =
-        load("robots:\n  - {description: robot}\nbodies:\n  - {name: plate, frame: world, " + plate + "}\n");
+    return load(defaults + "robots:\n  - {description: robot}\nbodies:\n  - {name: plate, frame: world, " +
+                plate + "}\n");
+  }
+  void setUp(Scene loaded, std::uint32_t capacity) {
+    scene = std::move(loaded);
     joints = std::make_shared<const SceneKinematics>(scene);
     tracker.setScene(scene);
     state = joints->startState();
@@ -209,6 +217,88 @@ TEST_F(ConstraintRowsTest, GivesTheEndsOfAnEdgeThatIsParallelToAFace) {
     const ConstraintRow& row = rows->rows()[slot];
     EXPECT_NEAR(std::abs(row.point_a.x()), 0.1, 1e-12);
   }
+}
+
+constexpr const char* kBox = "<geometry><box size='0.2 0.2 0.1'/></geometry>";
+constexpr const char* kSigned = "defaults: {expert: {signed_values: true}}\n";
+
+// The lowest corner of the cube is the deepest place; the plate lies still.
+TEST_F(ConstraintRowsTest, HasTheSignedValueAndItsGradientWhereBodiesOverlap) {
+  setUp(loadTilter(kPlate, kBox, kSigned), 16);
+  constexpr double kStep = 1e-5;
+  std::mt19937 engine(4);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  for (int trial = 0; trial < 100; ++trial) {
+    SCOPED_TRACE(trial);
+    Eigen::Vector4d at(0.0, 0.3 + 0.1 * unit(engine), 0.3 + 0.1 * unit(engine), 0.1 * unit(engine));
+    const Corner above = cornerAt(at, at[2] > 0.0 ? 0.1 : -0.1, at[1] > 0.0 ? -0.1 : 0.1);
+    at[0] = -above.height - 0.01 * (1.5 + unit(engine));  // 5 to 25 mm deep
+    const Corner corner = cornerAt(at, at[2] > 0.0 ? 0.1 : -0.1, at[1] > 0.0 ? -0.1 : 0.1);
+    ASSERT_LT(corner.height, -0.004);
+    cycle(at[0], at[1], at[2], at[3]);
+    ASSERT_EQ(used().size(), 1U);
+    const std::size_t slot = used().front();
+    const ConstraintRow row = rows->rows()[slot];
+    const Eigen::RowVector4d found = rows->jacobian().row(static_cast<Eigen::Index>(slot));
+    EXPECT_FALSE(row.is_overlapping);
+    EXPECT_NEAR(row.value, corner.height, 1e-10);
+    EXPECT_EQ(row.point_a, row.point_b) << "the pivot is both points";
+    EXPECT_NEAR(std::abs(row.normal.z()), 1.0, 1e-9);
+    EXPECT_LT((found - corner.gradient).cwiseAbs().maxCoeff(), 1e-8) << found << "\n" << corner.gradient;
+    for (Eigen::Index joint = 0; joint < 4; ++joint) {
+      const auto value_at = [&](double step) {
+        Eigen::Vector4d moved = at;
+        moved[joint] += step;
+        cycle(moved[0], moved[1], moved[2], moved[3]);
+        return used().size() == 1 ? rows->rows()[used().front()].value : NAN;
+      };
+      const double difference = (value_at(kStep) - value_at(-kStep)) / (2.0 * kStep);
+      EXPECT_NEAR(found[joint], difference, 1e-5) << "joint " << joint;
+    }
+  }
+}
+
+/// A table with a long and a short leg, its top 0.05 above the short one's end.
+SurfaceMesh unequalLegs(bool is_mirrored) {
+  test::Outline outline = {{-0.1, 0.0},  {-0.04, 0.0}, {-0.04, 0.1}, {0.04, 0.1},
+                           {0.04, 0.02}, {0.1, 0.02},  {0.1, 0.15},  {-0.1, 0.15}};
+  if (is_mirrored) {
+    for (Eigen::Vector2d& corner : outline) corner.x() *= -1.0;
+    std::reverse(outline.begin(), outline.end());
+  }
+  return test::movedSurface(test::makeExtrusion(outline, 0.1),
+                            Eigen::Isometry3d(Eigen::AngleAxisd(M_PI / 2, Eigen::Vector3d::UnitX())));
+}
+
+// Where the table's top meets the plate too, the regions of both legs become one, and part again.
+TEST_F(ConstraintRowsTest, BeginsItsAgeAnewWhereTheSignedValueJumps) {
+  int jumps = 0;
+  int others = 0;
+  for (const bool is_mirrored : {false, true}) {
+    Scene loaded = loadTilter("box: {size: [2, 2, 1]}, pose: {xyz: [0, 0, -0.5]}", kBox, kSigned);
+    const std::size_t cube = *loaded.findBody("cube");
+    loaded.bodies.edit(cube).mesh = std::make_shared<const BodyMesh>("table", unequalLegs(is_mirrored));
+    loaded.bodies.edit(cube).bounds = boundsOf(*loaded.bodies[cube].mesh);
+    setUp(std::move(loaded), 16);
+    std::vector<ConstraintRow> before = rows->rows();
+    for (int k = 0; k <= 120; ++k) {
+      SCOPED_TRACE(k);
+      cycle(0.03 - 0.0025 * (k <= 60 ? k : 120 - k), 0.0, 0.0);
+      for (const std::size_t slot : used()) {
+        const ConstraintRow& row = rows->rows()[slot];
+        const ConstraintRow& last = before[slot];
+        if (last.state != SlotState::Used || last.niche_id != row.niche_id) continue;
+        const bool has_jumped = std::abs(row.value - last.value) > 0.0026;
+        EXPECT_EQ(row.age, has_jumped ? 0U : last.age + 1) << "from " << last.value << " to " << row.value;
+        ++(has_jumped ? jumps : others);
+      }
+      before = rows->rows();
+    }
+    rows->update(tracker.pairs(), state, time);
+    for (const std::size_t slot : used()) EXPECT_EQ(rows->rows()[slot].age, before[slot].age + 1);
+  }
+  EXPECT_GE(jumps, 1);
+  EXPECT_GE(others, 100);
 }
 
 TEST_F(ConstraintRowsTest, SaysHowFastOtherBodiesAndRootsApproach) {
