@@ -172,6 +172,109 @@ TEST_F(ConstraintRowsTest, GivesTheRimOfACylinderThatStandsNearlyUpright) {
   }
 }
 
+constexpr const char* kLyingCylinder =
+    "<origin rpy='1.5707963267948966 0 0'/><geometry><cylinder radius='0.05' length='0.2'/></geometry>";
+
+// The fixed cylinder lies along y too, from -0.05 to 0.25: one corner is the end of either.
+TEST_F(ConstraintRowsTest, GivesTheEndsOfWhatTwoParallelCylindersShare) {
+  setUp("cylinder: {radius: 0.1, length: 0.3}, pose: {xyz: [0, 0.1, -0.1], rpy: [1.5707963267948966, 0, 0]}",
+        16, kLyingCylinder);
+  std::mt19937 engine(5);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  for (int trial = 0; trial < 200; ++trial) {
+    const double tilt = trial == 0 ? 0.0 : 5.0 * kTilt * unit(engine);
+    const double raise = 0.2 + 0.1 * unit(engine);
+    const double roll = 2.0 * unit(engine);
+    cycle(raise, tilt, roll);
+    ASSERT_EQ(used().size(), 2U) << raise << " " << tilt;
+    std::set<bool> seen;
+    for (const std::size_t slot : used()) {
+      const ConstraintRow& row = rows->rows()[slot];
+      const bool is_a = row.pair->body_a->name == "cube";
+      const Eigen::Vector3d& on_fixed = is_a ? row.point_b : row.point_a;
+      const double c = std::cos(tilt);
+      const double s = std::sin(tilt);
+      const bool is_of_robot = on_fixed.y() > 0.0;
+      seen.insert(is_of_robot);
+      // Its own end, 0.05 below the axis, over the fixed one's top; or that one's end below the tilted axis.
+      const double value = is_of_robot ? raise + 0.1 * s - 0.05 * c : raise * c - 0.05 * s - 0.05;
+      const double by_raise = is_of_robot ? 1.0 : c;
+      const double by_tilt = is_of_robot ? 0.1 * c + 0.05 * s : -raise * s - 0.05 * c;
+      ASSERT_NEAR(on_fixed.y(), is_of_robot ? 0.1 : -0.05, 1e-5);
+      ASSERT_NEAR(row.value, value, 1e-12);
+      const Eigen::RowVector4d found = rows->jacobian().row(static_cast<Eigen::Index>(slot));
+      ASSERT_NEAR(found[0], by_raise, 1e-10);
+      ASSERT_NEAR(found[1], by_tilt, 1e-9);
+      ASSERT_NEAR(found[2], 0.0, 1e-9) << "it rolls about its axis";
+    }
+    ASSERT_EQ(seen.size(), 2U);
+  }
+}
+
+TEST_F(ConstraintRowsTest, GivesTheEndsOfTheChordOfAFlatEndAboveACylinder) {
+  setUp("cylinder: {radius: 0.1, length: 1.0}, pose: {xyz: [0.06, 0, -0.1], rpy: [1.5707963267948966, 0, 0]}",
+        16, "<geometry><cylinder radius='0.1' length='0.1'/></geometry>");
+  for (const double tilt : {0.0, 3e-5, -3e-5}) {
+    cycle(0.2, tilt, 0.0);
+    ASSERT_EQ(used().size(), 2U);
+    for (const std::size_t slot : used()) {
+      const ConstraintRow& row = rows->rows()[slot];
+      ASSERT_NEAR(std::abs(row.point_a.y()), 0.08, 1e-5) << "of a circle of 0.1 at 0.06 from its centre";
+      ASSERT_NEAR(row.point_a.x(), 0.06, 1e-5);
+      const Corner corner = cornerAt({0.2, tilt, 0.0, 0.0}, 0.06, row.point_a.y());
+      ASSERT_NEAR(row.value, corner.height, 1e-9);
+      const Eigen::RowVector4d found = rows->jacobian().row(static_cast<Eigen::Index>(slot));
+      ASSERT_LT((found - corner.gradient).cwiseAbs().maxCoeff(), 1e-4) << found << "\n" << corner.gradient;
+    }
+  }
+}
+
+// Two discs share a lens; between eight points around it nothing is farther out than by a twelfth of a
+// radius.
+TEST_F(ConstraintRowsTest, GivesPointsAroundWhatTwoFlatEndsShare) {
+  for (const double offset : {0.0, 0.03, 0.12}) {
+    setUp("cylinder: {radius: 0.15, length: 0.1}, pose: {xyz: [" + std::to_string(offset) + ", 0, -0.05]}",
+          16, "<geometry><cylinder radius='0.1' length='0.1'/></geometry>");
+    for (const double tilt : {0.0, 2e-5}) {
+      cycle(0.2, tilt, 0.5 * tilt);
+      ASSERT_GE(used().size(), 3U);
+      ASSERT_LE(used().size(), 9U);
+      for (const std::size_t slot : used()) {
+        const ConstraintRow& row = rows->rows()[slot];
+        const Eigen::Vector3d& in_cube =
+            row.pair->body_a->name == "cube" ? row.point_a_in_frame : row.point_b_in_frame;
+        ASSERT_LE(in_cube.head<2>().norm(), 0.1 + 1e-9);
+        ASSERT_LE((in_cube.head<2>() - Eigen::Vector2d(offset, 0.0)).norm(), 0.15 + 1e-5);
+        const Corner corner = cornerAt({0.2, tilt, 0.5 * tilt, 0.0}, in_cube.x(), in_cube.y());
+        ASSERT_NEAR(row.value, corner.height, 1e-9);
+      }
+      for (int k = 0; k < 360; ++k) {
+        const Eigen::Vector2d direction(std::cos(k * M_PI / 180.0), std::sin(k * M_PI / 180.0));
+        double of_lens = -1.0;
+        for (int i = 0; i < 360; ++i) {
+          const Eigen::Vector2d on_rim(std::cos(i * M_PI / 180.0), std::sin(i * M_PI / 180.0));
+          const Eigen::Vector2d of_small = 0.1 * on_rim;
+          const Eigen::Vector2d of_large = Eigen::Vector2d(offset, 0.0) + 0.15 * on_rim;
+          if ((of_small - Eigen::Vector2d(offset, 0.0)).norm() <= 0.15)
+            of_lens = std::max(of_lens, direction.dot(of_small));
+          if (of_large.norm() <= 0.1) of_lens = std::max(of_lens, direction.dot(of_large));
+        }
+        double of_rows = -1.0;
+        for (const std::size_t slot : used())
+          of_rows = std::max(of_rows, direction.dot(rows->rows()[slot].point_a.head<2>()));
+        ASSERT_NEAR(of_rows, of_lens, 0.15 / 12.0 + 1e-3) << offset << " at " << k;
+      }
+    }
+  }
+}
+
+TEST_F(ConstraintRowsTest, GivesOneRowWhereTwoCylindersCross) {
+  setUp("cylinder: {radius: 0.1, length: 0.3}, pose: {xyz: [0, 0, -0.1], rpy: [0, 1.5707963267948966, 0]}",
+        16, kLyingCylinder);
+  cycle(0.2, 0.0, 0.0);
+  EXPECT_EQ(used().size(), 1U);
+}
+
 // One row for the niche would move its point by 0.2 m.
 TEST_F(ConstraintRowsTest, KeepsTheRowsOfAPatchInTheirSlotsWhereItTiltsToTheOtherSide) {
   setUp(kPlate);
