@@ -28,9 +28,9 @@ class BodyPreparation {
   BodyPreparation(const PreparationSettings& settings, WorkLimit::Clock::time_point end,
                   const std::atomic<bool>* stop);
 
-  /// A pair whose niches are wanted.
+  /// Adds a pair whose niches are wanted.
   void add(const BodyMesh& a, const BodyMesh& b, const TrackerParameters& parameters);
-  /// What the rules of a scene watch: against one another, whichever are near.
+  /// Adds the bodies that rules of a scene watch, each against whichever will be near.
   void addAhead(const Scene& scene);
   /// @return true when nothing is left
   bool run();

@@ -216,16 +216,21 @@ TEST_F(ConstraintRowsTest, GivesTheEndsOfTheChordOfAFlatEndAboveACylinder) {
         16, "<geometry><cylinder radius='0.1' length='0.1'/></geometry>");
   for (const double tilt : {0.0, 3e-5, -3e-5}) {
     cycle(0.2, tilt, 0.0);
-    ASSERT_EQ(used().size(), 2U);
+    // Tilted, the disc's closest point lies 2e-6 beside one end, and is nearer by 3e-12.
+    ASSERT_GE(used().size(), 2U);
+    ASSERT_LE(used().size(), tilt == 0.0 ? 2U : 3U);
+    std::set<bool> sides;
     for (const std::size_t slot : used()) {
       const ConstraintRow& row = rows->rows()[slot];
       ASSERT_NEAR(std::abs(row.point_a.y()), 0.08, 1e-5) << "of a circle of 0.1 at 0.06 from its centre";
       ASSERT_NEAR(row.point_a.x(), 0.06, 1e-5);
+      sides.insert(row.point_a.y() > 0.0);
       const Corner corner = cornerAt({0.2, tilt, 0.0, 0.0}, 0.06, row.point_a.y());
       ASSERT_NEAR(row.value, corner.height, 1e-9);
       const Eigen::RowVector4d found = rows->jacobian().row(static_cast<Eigen::Index>(slot));
       ASSERT_LT((found - corner.gradient).cwiseAbs().maxCoeff(), 1e-4) << found << "\n" << corner.gradient;
     }
+    ASSERT_EQ(sides.size(), 2U);
   }
 }
 

@@ -7,7 +7,7 @@
 
 namespace concave_distance {
 
-/// How SceneTracker::prepare() works.
+/// Says how SceneTracker::prepare() works.
 struct PreparationSettings {
   std::uint32_t threads = 0;  ///< that make parts of the bodies; 0: one per core
   /// Seconds; what has been begun by then is finished, some 0.1 s for a body of 10,000 triangles.
@@ -16,7 +16,7 @@ struct PreparationSettings {
   std::function<void(std::size_t done, std::size_t count)> progress;
 };
 
-/// What SceneTracker::prepare() has done.
+/// Counts what SceneTracker::prepare() has made and left.
 struct PreparationCounts {
   std::size_t bodies = 0;        ///< meshes that it looked at
   std::size_t made = 0;          ///< of these the ones of which something was missing
