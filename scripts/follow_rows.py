@@ -13,10 +13,7 @@ import os
 import queue
 import sys
 import time
-import xml.etree.ElementTree as ElementTree
 
-import cvxopt
-import cvxopt.solvers
 import numpy as np
 import rospy
 from concave_distance.msg import Constraint, Constraints, DistanceQuery, Niches, PairStatus
@@ -27,108 +24,13 @@ from sensor_msgs.msg import JointState
 from std_msgs.msg import ColorRGBA
 from visualization_msgs.msg import Marker, MarkerArray
 
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from row_program import Task  # noqa: E402  (the path comes first)
+
 NODE = "concave_distance"
 HOLD = 3.0          # s of wall time, at the end of a run that is watched
-SLACK_COST = 30.0   # of a row that cannot hold, against 1 for a tip at full speed in the wrong direction
 COLOURS = {"all": ColorRGBA(0.10, 0.35, 0.75, 1.0), "nearest": ColorRGBA(0.85, 0.20, 0.10, 1.0)}
 WORDS = {"all": "All rows", "nearest": "Nearest row only"}
-# Mehrotra's correction goes round in circles on some of these programs.
-cvxopt.solvers.options.update(show_progress=False, use_correction=False)
-
-
-def rotation(axis, angle):
-    x, y, z = axis
-    cross = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
-    return np.eye(3) + np.sin(angle) * cross + (1.0 - np.cos(angle)) * cross @ cross
-
-
-def numbers(element, key, default):
-    return np.array((default if element is None else element.get(key, default)).split(), float)
-
-
-def placed(origin):
-    """4 x 4 matrix of a URDF's <origin>."""
-    pose = np.eye(4)
-    pose[:3, 3] = numbers(origin, "xyz", "0 0 0")
-    roll, pitch, yaw = numbers(origin, "rpy", "0 0 0")
-    pose[:3, :3] = rotation((0, 0, 1), yaw) @ rotation((0, 1, 0), pitch) @ rotation((1, 0, 0), roll)
-    return pose
-
-
-class Chain:
-    """The joints of a URDF from its root to the tip, a point of its last link; others may only be fixed."""
-
-    def __init__(self, description, link, point):
-        joint_of = {joint.find("child").get("link"): joint for joint in ElementTree.fromstring(description).findall("joint")}
-        self.joints, self.tip = [], np.append(point, 1.0)
-        while link in joint_of:
-            self.joints.insert(0, joint_of[link])
-            link = joint_of[link].find("parent").get("link")
-        moving = [joint for joint in self.joints if joint.get("type") != "fixed"]
-        self.names = [joint.get("name") for joint in moving]
-        self.lower, self.upper, self.speeds = (numbers(None, "", " ".join(joint.find("limit").get(key) for joint in moving))
-                                               for key in ("lower", "upper", "velocity"))
-
-    def tip_at(self, positions):
-        """Where the tip is (3), and its Jacobian (3 x joints), in the root's frame."""
-        pose, axes, left = np.eye(4), [], list(positions)
-        for joint in self.joints:
-            pose = pose @ placed(joint.find("origin"))
-            if joint.get("type") == "fixed":
-                continue
-            axis, step = numbers(joint.find("axis"), "xyz", "1 0 0"), np.eye(4)
-            axes.append((joint.get("type") == "prismatic", pose[:3, :3] @ axis, pose[:3, 3].copy()))
-            if axes[-1][0]:
-                step[:3, 3] = left.pop(0) * axis
-            else:
-                step[:3, :3] = rotation(axis, left.pop(0))
-            pose = pose @ step
-        tip = (pose @ self.tip)[:3]
-        return tip, np.array([axis if slides else np.cross(axis, tip - at) for slides, axis, at in axes]).T
-
-
-class Task:
-    """Brings the tip to a goal and, where that leaves a choice, joints to a posture. `pace`: of the speeds' limits."""
-
-    def __init__(self, description, task, pace):
-        self.chain = Chain(description, task["tip"]["link"], task["tip"]["point"])
-        names = self.chain.names
-        self.name, self.bodies, self.text_at = task["name"], task["bodies"], task["text_at"]
-        self.start = np.array([float(task["start"][name]) for name in names])
-        self.goal = np.array(task["goal"], float)
-        self.posture = np.array([float(task.get("posture", {}).get(name, np.nan)) for name in names])
-        self.approach, self.weight, self.tolerance = task["approach"], task["posture_weight"], task["tolerance"]
-        self.speeds, self.tip_speed = pace * self.chain.speeds, pace * task["tip_speed"]
-
-    def wish(self, positions):
-        """matrix, vector: matrix * w shall come near the vector; w: velocities as parts of their limits."""
-        tip, jacobian = self.chain.tip_at(positions)
-        desired = self.approach * (self.goal - tip) / self.tip_speed
-        rest = np.nan_to_num(self.approach * (self.posture - positions) / self.speeds)
-        return (np.vstack([jacobian * self.speeds / self.tip_speed, self.weight * np.eye(len(rest))]),
-                np.concatenate([desired / max(1.0, np.linalg.norm(desired)), self.weight * np.clip(rest, -1.0, 1.0)]))
-
-    def is_done(self, tip):
-        return np.linalg.norm(self.goal - tip) < self.tolerance
-
-    def velocities(self, positions, rows, margin, gain):
-        """The program: as near to the wish as limits and jacobian * v >= drift - gain * (value - margin) allow."""
-        count = len(positions)
-        matrix, vector = self.wish(positions)
-        hessian, linear = np.eye(count + 1), np.append(-matrix.T @ vector, SLACK_COST)  # the last unknown is a slack
-        hessian[:count, :count] = matrix.T @ matrix
-        highest = np.minimum(1.0, gain * (self.chain.upper - positions) / self.speeds)
-        lowest = np.maximum(-1.0, gain * (self.chain.lower - positions) / self.speeds)
-        jacobian = np.array([row.jacobian for row in rows]).reshape(-1, count) * self.speeds
-        bounds = np.array([(row.drift if row.has_drift else 0.0) - gain * (row.value - margin) for row in rows])
-        sizes = np.maximum(1e-6, np.abs(jacobian).max(axis=1, initial=0.0))  # m/s
-        left = np.vstack([np.eye(count + 1)[:count], -np.eye(count + 1),
-                          np.hstack([-jacobian / sizes[:, None], -np.ones((len(rows), 1))])])
-        right = np.concatenate([highest, -lowest, [0.0], -bounds / sizes])
-        solution = cvxopt.solvers.qp(*map(cvxopt.matrix, (hessian, linear, left, right)))
-        if solution["status"] != "optimal":
-            raise SystemExit("the quadratic program is not solved: " + solution["status"])
-        return np.array(solution["x"]).ravel()[:count] * self.speeds
 
 
 class Robot:
@@ -195,28 +97,25 @@ class Record:
     def __init__(self, rows, joints):
         self.rows, self.lines, self.path, self.state = rows, [], [], "moving"
         self.header = ["t", *joints, *("v_" + name for name in joints), "tip_x", "tip_y", "tip_z", "value", "lower_bound",
-                       "pair", "niche", "rows", "state"]
+                       "pair", "rows", "state"]
 
     def add(self, moment, positions, velocity, tip, used, program):
         nearest = min(used, key=lambda row: row.value, default=None)
-        cells = ["", "", "", ""] if nearest is None else [nearest.value, nearest.lower_bound, nearest.pair, nearest.niche_id]
+        cells = ["", "", ""] if nearest is None else [nearest.value, nearest.lower_bound, nearest.pair]
         self.lines.append([moment, *positions, *velocity, *tip, *cells, len(program), self.state])
         self.path.append(Point(*tip))
 
     def summary(self):
-        values = [line[-6] for line in self.lines if line[-6] != ""]
-        least = "at least %.1f mm apart" % (1e3 * min(values)) if values else "far from everything"
+        values = [line[-5] for line in self.lines if line[-5] != ""]
+        clear = ", always %.1f mm clear" % (1e3 * min(values)) if values and self.state != "contact" else ""
         ends = {"goal": "at its goal", "contact": "CONTACT", "moving": "not at its goal"}
-        return "%s: %s after %.2f s, %s" % (WORDS[self.rows], ends[self.state], self.lines[-1][0], least)
+        return "%s: %s after %.2f s%s" % (WORDS[self.rows], ends[self.state], self.lines[-1][0], clear)
 
     def write(self, folder, task):
         with open(os.path.join(folder, "%s_%s.csv" % (task, self.rows)), "w", newline="", encoding="utf-8") as file:
             writer = csv.writer(file, lineterminator="\n")
             writer.writerow(self.header)
-            # The ids of niches differ from run to run, so each is named by when it was the nearest first.
-            names = {}
             for line in self.lines:
-                line[-3] = "" if line[-3] == "" else names.setdefault(line[-3], len(names) + 1)
                 writer.writerow(["%.7g" % (cell + 0.0) if isinstance(cell, float) else cell for cell in line])
 
 
@@ -287,7 +186,12 @@ def main():
         raise SystemExit("the parameter rows is '{}': expected both, all or nearest".format(which))
     if not rospy.has_param("robot_description"):
         raise SystemExit("there is no parameter robot_description: roslaunch concave_distance rows.launch sets it")
-    task = Task(rospy.get_param("robot_description"), rospy.get_param("~task"), float(rospy.get_param("~pace", 1.0)))
+    if not rospy.has_param("~task"):
+        raise SystemExit("there is no task: rosparam load config/rows_clamp_task.yaml {}/task".format(rospy.get_name()))
+    try:
+        task = Task(rospy.get_param("robot_description"), rospy.get_param("~task"), float(rospy.get_param("~pace", 1.0)))
+    except (KeyError, TypeError, ValueError) as error:
+        raise SystemExit("task: {!r}; compare it with config/rows_clamp_task.yaml".format(error))
     output = rospy.get_param("~output", "")
     robot = Robot(task.chain.names, task.bodies)
     picture = None if output else Picture(task.text_at)
@@ -295,7 +199,12 @@ def main():
     robot.wait(task.start, step, float(rospy.get_param("~longest_wait", 60.0)))
     while not rospy.is_shutdown():
         for rows in list(WORDS) if which == "both" else [which]:
-            record = run(robot, task, rows, picture)
+            try:
+                record = run(robot, task, rows, picture)
+            except rospy.ServiceException as error:
+                if rospy.is_shutdown():
+                    return 0
+                raise SystemExit("the node {} does not answer any more: {}".format(rospy.resolve_name(NODE), error))
             if record is None:
                 return 0
             rospy.loginfo("%s", record.summary())
@@ -304,7 +213,7 @@ def main():
             else:
                 time.sleep(HOLD)
         if output:
-            return 0
+            break
     return 0
 
 

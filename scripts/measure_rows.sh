@@ -17,26 +17,26 @@ output="$(realpath -m "${1:-$build_dir/rows}")"
 rm -rf "$output"
 export ROS_LOG_DIR="$output/logs"
 
-# Scene, step, gain, margin, pace; the first of a scene is drawn.
+# Name, scene, step (s), gain (1/s), margin (m), pace; the first of a scene is drawn.
 settings=(
-  "clamp 0.01 10 0.004 1"
-  "clamp 0.002 10 0.004 1"
-  "clamp 0.001 100 0.004 1"
-  "clamp 0.01 10 0.0055 1"
-  "clamp 0.01 10 0.004 0.5"
-  "clamp 0.01 10 0.0055 0.5"
-  "clamp 0.01 10 0.004 0.25"
-  "arm 0.01 5 0.02 1"
-  "arm 0.002 5 0.02 1"
-  "arm 0.002 20 0.02 1"
-  "arm 0.01 5 0.03 1"
-  "arm 0.01 5 0.02 0.5"
-  "arm 0.01 5 0.02 0.25"
+  "drawn clamp 0.01 10 0.004 1"
+  "step clamp 0.002 10 0.004 1"
+  "gain clamp 0.001 100 0.004 1"
+  "margin clamp 0.01 10 0.0055 1"
+  "half clamp 0.01 10 0.004 0.5"
+  "half_margin clamp 0.01 10 0.0055 0.5"
+  "quarter clamp 0.01 10 0.004 0.25"
+  "drawn arm 0.01 5 0.02 1"
+  "step arm 0.002 5 0.02 1"
+  "gain arm 0.002 20 0.02 1"
+  "margin arm 0.01 5 0.03 1"
+  "half arm 0.01 5 0.02 0.5"
+  "quarter arm 0.01 5 0.02 0.25"
 )
 number=0
 for setting in "${settings[@]}"; do
-  read -r scene step gain margin pace <<<"$setting"
-  folder="$output/$(printf %02d "$number")_${scene}_step=${step}_gain=${gain}_margin=${margin}_pace=${pace}"
+  read -r name scene step gain margin pace <<<"$setting"
+  folder="$output/$(printf %02d "$number")_${scene}_${name}_step=${step}_gain=${gain}_margin=${margin}_pace=${pace}"
   number=$((number + 1))
   mkdir -p "$folder"
   say "$scene, step $step s, gain $gain/s, margin $margin m, pace $pace"

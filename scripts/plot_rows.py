@@ -42,17 +42,16 @@ class Run:
         self.velocities = np.array([[float(line["v_" + name]) for name in self.joints] for line in lines])
         self.tip = np.array([[float(line["tip_" + axis]) for axis in "xyz"] for line in lines])
         self.value = np.array([1e3 * float(line["value"] or "nan") for line in lines])
-        self.niches = [(line["pair"], line["niche"]) for line in lines]
         self.end = lines[-1]["state"]
 
     def summary(self, limits):
         """`limits`: of the joints' velocities."""
         jumps = np.diff(self.velocities / limits, axis=0)
-        turns = self.velocities[1:] * self.velocities[:-1] < 0.0
-        hops = sum(a != b and "" not in (a[0], b[0]) for a, b in zip(self.niches, self.niches[1:]))
+        moves = np.where(np.abs(self.velocities) < 0.01 * limits, 0.0, self.velocities)
+        turns = moves[1:] * moves[:-1] < 0.0  # without those below a hundredth of the limit
         return {"end": self.end, "time": f"{self.time[-1]:.2f}", "least_mm": f"{np.nanmin(self.value):.2f}",
                 "largest_jump": f"{np.abs(jumps).max():.2f}", "total_variation": f"{np.abs(jumps).sum():.1f}",
-                "sign_changes": int(turns.sum()), "hops": hops}
+                "sign_changes": int(turns.sum())}
 
 
 def limits_of(urdf):
@@ -71,20 +70,21 @@ def draw_clamp(axes, runs):
     outline = clamp_outline()
     for box in (((-0.3, -0.02), 0.3, 0.04), ((-0.18, -0.105), 0.03, 0.09)):
         axes.add_patch(plt.Rectangle(*box, color="0.6", zorder=1, linewidth=0))
-    axes.text(-0.24, 0.028, "table", fontsize=8, color="0.35")
-    run = runs["all"]
-    for share in (0.0, 0.22, 1.0):
-        k = int(share * (len(run.time) - 1))
-        axes.add_patch(plt.Polygon(outline_at(outline, run.positions[k]), closed=True, zorder=2, linewidth=0.8,
-                                   facecolor=(0.35, 0.5, 0.72, 0.25 + 0.3 * share), edgecolor=COLOURS["all"]))
-    axes.add_patch(plt.Polygon(outline_at(outline, runs["nearest"].positions[-1]), closed=True, fill=False, zorder=3,
+    axes.text(-0.19, -0.006, "table", fontsize=8, color="w", zorder=6)
+    every, nearest = runs["all"], runs["nearest"]
+    for k, words, place in ((0, "start", (0.19, 0.145)), (len(every.time) - 1, "goal", (0.085, -0.072))):
+        axes.add_patch(plt.Polygon(outline_at(outline, every.positions[k]), closed=True, zorder=2, linewidth=0.8,
+                                   facecolor=(0.35, 0.5, 0.72, 0.5 if k else 0.15), edgecolor=COLOURS["all"]))
+        axes.text(*place, words, fontsize=8, color=COLOURS["all"])
+    axes.add_patch(plt.Polygon(outline_at(outline, nearest.positions[-1]), closed=True, fill=False, zorder=3,
                                linewidth=1.2, edgecolor=COLOURS["nearest"]))
+    axes.text(-0.1, 0.09, "contact", fontsize=8, color=COLOURS["nearest"])
     for name in ("all", "nearest"):
         axes.plot(runs[name].tip[:, 0], runs[name].tip[:, 2], color=COLOURS[name], linewidth=1.5, zorder=4)
-    axes.plot(*runs["nearest"].tip[-1][[0, 2]], "x", color=COLOURS["nearest"], markersize=9, markeredgewidth=2, zorder=5)
-    axes.set_xlim(-0.25, 0.42)
-    axes.set_ylim(-0.17, 0.27)
-    axes.set_title("the tool at the start, on its way and at its goal", fontsize=9)
+    axes.plot(*nearest.tip[-1][[0, 2]], "x", color=COLOURS["nearest"], markersize=8, markeredgewidth=2, zorder=5)
+    axes.set_xlim(-0.2, 0.36)
+    axes.set_ylim(-0.12, 0.2)
+    axes.set_title("a C-shaped tool around a table's edge", fontsize=9)
 
 
 def draw_arm(axes, runs):
@@ -102,12 +102,12 @@ def draw_arm(axes, runs):
         axes.add_patch(plt.Circle(body["pose"]["xyz"][:2], body["cylinder"]["radius"], color="0.6", zorder=1))
     for name in ("all", "nearest"):
         axes.plot(runs[name].tip[:, 0], runs[name].tip[:, 1], ":", color=COLOURS[name], linewidth=1.5)
-    axes.set_title("the arm from above at the start, on its way and at its end", fontsize=9)
+    axes.set_title("an arm between two posts, from above", fontsize=9)
 
 
 def draw(name, runs, picture, limits, joint):
     """Three panels: the path, the commanded velocity of one joint, the least distance."""
-    figure, (left, middle, right) = plt.subplots(1, 3, figsize=(12, 3.6), gridspec_kw={"width_ratios": [1.3, 1, 1]})
+    figure, (left, middle, right) = plt.subplots(1, 3, figsize=(12, 3.6), gridspec_kw={"width_ratios": [1.45, 1, 1]})
     picture(left, runs)
     left.set_aspect("equal")
     left.set_xticks([])
@@ -119,25 +119,28 @@ def draw(name, runs, picture, limits, joint):
         if run.end == "contact":
             right.plot(run.time[-1], 0.0, "x", color=COLOURS[which], markersize=9, markeredgewidth=2)
             right.annotate("contact", (run.time[-1], 0.0), (8, 3), textcoords="offset points", color=COLOURS[which], fontsize=9)
+        for axes in (middle, right):
+            axes.set_xlim(*WINDOWS[name])
     margin = MARGINS[name]
     right.axhline(margin, color="k", linewidth=0.8, linestyle="--")
-    right.text(runs["all"].time[-1], 0.93 * margin, f"margin {margin:g} mm", ha="right", va="top", fontsize=8)
-    right.set_ylim(-0.2 * margin, 5 * margin)
+    right.text(WINDOWS[name][1], 0.93 * margin, f"margin {margin:g} mm ", ha="right", va="top", fontsize=8)
+    right.set_ylim(-0.2 * margin, 3 * margin)
     middle.set_ylim(-1.05, 1.05)
-    middle.set_title("commanded velocity of the " + TURNS[name] + ", 1: its limit", fontsize=9)
+    middle.set_title("commanded velocity: " + TURNS[name] + ", part of its limit", fontsize=9)
     right.set_title("distance of the nearest place, mm", fontsize=9)
     for axes in (middle, right):
-        axes.set_xlabel("s", fontsize=8)
+        axes.set_xlabel("time, s", fontsize=8)
         axes.tick_params(labelsize=8)
         axes.grid(alpha=0.3)
-    middle.legend(fontsize=8, loc="upper right")
+    middle.legend(fontsize=8, loc="lower right")
     figure.tight_layout()
     figure.savefig(IMAGES / PICTURES[name], dpi=85)
     plt.close(figure)
     print(f"doc/images/{PICTURES[name]}")
 
 
-TURNS = {"clamp": "turn", "arm": "shoulder (j1)"}
+TURNS = {"clamp": "the tool's turn", "arm": "shoulder j1"}
+WINDOWS = {"clamp": (0.3, 1.3), "arm": (0.0, 4.0)}  # s, that are drawn
 PICTURES = {"clamp": "rows.png", "arm": "rows_arm.png"}
 SCENES = {"clamp": ("clamp.urdf", draw_clamp, 2), "arm": ("wam.urdf", draw_arm, 0)}
 
@@ -149,9 +152,10 @@ def main():
         limits = limits_of(urdf)
         for place, setting in enumerate(sorted(folder.glob(f"*_{name}_*"))):
             values = dict(re.findall(r"(step|gain|margin|pace)=([\d.]+)", setting.name))
+            called = re.match(rf"\d+_{name}_(.*)_step=", setting.name)[1]
             runs = {path.stem.split("_")[1]: Run(path) for path in sorted(setting.glob("*.csv"))}
             for which, run in runs.items():
-                table.append({"scene": name, "rows": which, **values, **run.summary(limits * float(values["pace"]))})
+                table.append({"scene": name, "setting": called, "rows": which, **values, **run.summary(limits * float(values["pace"]))})
                 if place == 0:
                     shutil.copy(run.path, RESULTS / f"rows_{name}_{which}.csv")
             if place == 0:
