@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Measures what all rows are worth beside the nearest one (doc/control.md): runs launch/rows.launch with each setting below,
-# headless, writes doc/results/rows*.csv and draws doc/images/rows.png and rows_arm.png. Five minutes; the figures do not
+# headless, writes doc/results/rows*.csv and draws doc/images/rows.png and rows_arm.png. Some minutes; the figures do not
 # depend on the machine.
 #   scripts/measure_rows.sh [folder for the CSV files]
 # Needs what scripts/demo.sh builds and python3-matplotlib. ROS_MASTER_URI says on which port; no master may run there.
@@ -28,10 +28,8 @@ settings=(
   "quarter clamp 0.01 10 0.004 0.25"
   "drawn arm 0.01 5 0.02 1"
   "step arm 0.002 5 0.02 1"
-  "gain arm 0.002 20 0.02 1"
   "margin arm 0.01 5 0.03 1"
   "half arm 0.01 5 0.02 0.5"
-  "quarter arm 0.01 5 0.02 0.25"
 )
 number=0
 for setting in "${settings[@]}"; do

@@ -100,8 +100,12 @@ def draw_arm(axes, runs):
         axes.plot(points[:, 0], points[:, 1], "-o", color=COLOURS[name], alpha=alpha, linewidth=3, markersize=4)
     for body in yaml.safe_load((ROOT / "config" / "rows_arm.yaml").read_text(encoding="utf-8"))["bodies"]:
         axes.add_patch(plt.Circle(body["pose"]["xyz"][:2], body["cylinder"]["radius"], color="0.6", zorder=1))
+        axes.text(body["pose"]["xyz"][0] + 0.05, body["pose"]["xyz"][1], "post", fontsize=8, color="0.35", va="center")
     for name in ("all", "nearest"):
         axes.plot(runs[name].tip[:, 0], runs[name].tip[:, 1], ":", color=COLOURS[name], linewidth=1.5)
+    axes.text(-0.11, 0.0, "start", fontsize=8, color=COLOURS["all"])
+    axes.text(0.86, 0.06, "goal", fontsize=8, color=COLOURS["all"])
+    axes.set_ylim(-0.08, 0.4)
     axes.set_title("an arm between two posts, from above", fontsize=9)
 
 
@@ -132,7 +136,7 @@ def draw(name, runs, picture, limits, joint):
         axes.set_xlabel("time, s", fontsize=8)
         axes.tick_params(labelsize=8)
         axes.grid(alpha=0.3)
-    middle.legend(fontsize=8, loc="lower right")
+    middle.legend(fontsize=8, loc=LEGENDS[name])
     figure.tight_layout()
     figure.savefig(IMAGES / PICTURES[name], dpi=85)
     plt.close(figure)
@@ -140,6 +144,7 @@ def draw(name, runs, picture, limits, joint):
 
 
 TURNS = {"clamp": "the tool's turn", "arm": "shoulder j1"}
+LEGENDS = {"clamp": "lower right", "arm": "upper right"}
 WINDOWS = {"clamp": (0.3, 1.3), "arm": (0.0, 4.0)}  # s, that are drawn
 PICTURES = {"clamp": "rows.png", "arm": "rows_arm.png"}
 SCENES = {"clamp": ("clamp.urdf", draw_clamp, 2), "arm": ("wam.urdf", draw_arm, 0)}

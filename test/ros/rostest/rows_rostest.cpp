@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <ros/package.h>
 #include <ros/param.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -37,7 +38,7 @@ std::vector<std::string> cellsOf(const std::string& line) {
 }
 
 // What a run has written.
-struct Run {
+struct RecordedRun {
   std::string text;
   std::string state;
   double seconds = 0.0;
@@ -45,8 +46,8 @@ struct Run {
   double largest_jump = 0.0;  // of a joint's commanded velocity from one step to the next, m/s or rad/s
 };
 
-Run readRun(const std::filesystem::path& path) {
-  Run run;
+RecordedRun readRun(const std::filesystem::path& path) {
+  RecordedRun run;
   run.text = textOf(path);
   std::istringstream stream(run.text);
   std::string line;
@@ -85,12 +86,12 @@ class RowsDemo : public ::testing::Test {
 
   void launch(const std::string& arguments) {
     const Ended ended =
-        runCommand("timeout 120 roslaunch concave_distance rows.launch rviz:=false speed:=0 output:=" +
+        runCommand("timeout 400 roslaunch concave_distance rows.launch rviz:=false speed:=0 output:=" +
                    folder_.string() + " " + arguments);
     EXPECT_EQ(ended.exit_code, 0) << ended.output;
     output_ = ended.output;
   }
-  Run run(const std::string& name) const {
+  RecordedRun run(const std::string& name) const {
     EXPECT_TRUE(std::filesystem::exists(folder_ / name)) << output_;
     return readRun(folder_ / name);
   }
@@ -101,11 +102,11 @@ class RowsDemo : public ::testing::Test {
 
 TEST_F(RowsDemo, AToolAroundAnEdgeNeedsAllRows) {
   launch("scene:=clamp");
-  const Run all = run("clamp_all.csv");
+  const RecordedRun all = run("clamp_all.csv");
   EXPECT_EQ(all.state, "goal");
   EXPECT_LT(all.seconds, 3.0);
   EXPECT_GT(all.least_value, 0.0039) << "the margin is 4 mm";
-  const Run nearest = run("clamp_nearest.csv");
+  const RecordedRun nearest = run("clamp_nearest.csv");
   EXPECT_EQ(nearest.state, "contact");
   EXPECT_GT(nearest.largest_jump, 2.0 * all.largest_jump);
   launch("scene:=clamp rows:=all");
@@ -114,20 +115,22 @@ TEST_F(RowsDemo, AToolAroundAnEdgeNeedsAllRows) {
 
 TEST_F(RowsDemo, AnArmBetweenPostsNeedsAllRows) {
   launch("scene:=arm");
-  const Run all = run("arm_all.csv");
+  const RecordedRun all = run("arm_all.csv");
   EXPECT_EQ(all.state, "goal");
   EXPECT_GT(all.least_value, 0.019) << "the margin is 20 mm";
-  const Run nearest = run("arm_nearest.csv");
+  const RecordedRun nearest = run("arm_nearest.csv");
   EXPECT_LT(nearest.least_value, 0.01);
   EXPECT_GT(nearest.largest_jump, 2.0 * all.largest_jump);
 }
 
 TEST_F(RowsDemo, SaysWhatIsMissing) {
   ros::param::del("/robot_description");
+  ros::param::del("/follow_rows");
   Ended ended = runCommand(kProgram + "_rows:=some 2>&1");
   EXPECT_EQ(ended.exit_code, 1);
   EXPECT_NE(ended.output.find("rows is 'some': expected both, all or nearest"), std::string::npos)
       << ended.output;
+  ros::param::set("/follow_rows/rows", "both");
   ended = runCommand(kProgram + "2>&1");
   EXPECT_EQ(ended.exit_code, 1);
   EXPECT_NE(ended.output.find("there is no parameter robot_description"), std::string::npos) << ended.output;
