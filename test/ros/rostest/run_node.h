@@ -16,9 +16,9 @@ struct Ended {
 };
 
 /// Runs a node of its own until it ends; what it says on both streams.
-inline Ended runNode(const std::string& arguments) {
+inline Ended runNode(const std::string& arguments, const std::string& program = "distance_node") {
   // It stands beside this program.
-  const std::string node = std::filesystem::read_symlink("/proc/self/exe").parent_path() / "distance_node";
+  const std::string node = std::filesystem::read_symlink("/proc/self/exe").parent_path() / program;
   const std::string command = "timeout 20 " + node + " " + arguments + " 2>&1";
   FILE* pipe = popen(command.c_str(), "r");
   Ended ended{-1, ""};
