@@ -29,9 +29,9 @@ inline Ended runCommand(const std::string& command) {
 }
 
 /// Runs a node of its own until it ends; what it says on both streams.
-inline Ended runNode(const std::string& arguments) {
+inline Ended runNode(const std::string& arguments, const std::string& program = "distance_node") {
   // It stands beside this program.
-  const std::string node = std::filesystem::read_symlink("/proc/self/exe").parent_path() / "distance_node";
+  const std::string node = std::filesystem::read_symlink("/proc/self/exe").parent_path() / program;
   return runCommand("timeout 20 " + node + " " + arguments + " 2>&1");
 }
 
