@@ -43,7 +43,7 @@ class MotionSpan {
                          const BoxCorners& corners_b) const;
 
  private:
-  /// What an element of the path does in the span.
+  /// Bounds what an element of the path does in the span.
   struct ElementSpan {
     double rate = 0.0;          ///< rad or m by share of the segment; nothing where the span has several
     double acceleration = 0.0;  ///< likewise
