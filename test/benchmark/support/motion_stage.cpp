@@ -183,22 +183,22 @@ void MotionStage::place(const Eigen::VectorXd& positions, Poses& poses) const {
 double MotionStage::boundAt(std::size_t pair, const Poses& poses, double enough) const {
   const Body& a = bodies_[pairs_[pair].a];
   const Body& b = bodies_[pairs_[pair].b];
-  const Eigen::Isometry3d b_from_a =
-      poses.world_from_body[pairs_[pair].b].inverse() * poses.world_from_body[pairs_[pair].a];
-  const auto toBoxes = [&](const Ball& ball, const Eigen::AlignedBox3d* begin,
-                           const Eigen::AlignedBox3d* end) {
-    const Eigen::Vector3d centre = b_from_a * ball.centre;
-    double least = std::numeric_limits<double>::infinity();
-    for (; begin != end; ++begin) least = std::min(least, begin->squaredExteriorDistance(centre));
-    return std::sqrt(least) - ball.radius;
-  };
-  const double rough = (b_from_a * a.whole.centre - b.whole.centre).norm() - a.whole.radius - b.whole.radius;
+  const Eigen::Isometry3d& world_from_a = poses.world_from_body[pairs_[pair].a];
+  const Eigen::Isometry3d& world_from_b = poses.world_from_body[pairs_[pair].b];
+  const double rough = (world_from_a * a.whole.centre - world_from_b * b.whole.centre).norm() -
+                       a.whole.radius - b.whole.radius;
   if (rough > enough) return rough;
+  const Eigen::Isometry3d b_from_a = world_from_b.inverse() * world_from_a;
   double bound = std::numeric_limits<double>::infinity();
   for (const Ball& ball : a.balls) {
-    bound = std::min(bound, toBoxes(ball, b.boxes.data(), b.boxes.data() + b.boxes.size()));
+    const Eigen::Vector3d centre = b_from_a * ball.centre;
+    double squared = std::numeric_limits<double>::infinity();
+    for (const Eigen::AlignedBox3d& box : b.boxes) {
+      squared = std::min(squared, box.squaredExteriorDistance(centre));
+    }
+    bound = std::min(bound, std::sqrt(squared) - ball.radius);
   }
-  return std::max(0.0, std::max(rough, bound));
+  return std::max({0.0, rough, bound});
 }
 
 double MotionStage::distanceAt(std::size_t pair, const Poses& poses, double seed) const {

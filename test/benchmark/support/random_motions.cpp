@@ -79,6 +79,11 @@ bool RandomMotions::isClear(const Eigen::VectorXd& positions) const {
   return stage_.leastAt(poses, 1e-3) >= 1e-3;
 }
 
+bool RandomMotions::touches(const Motion& motion) const {
+  // No motion of half a step brings bodies nearer than that.
+  return sampleMotion(stage_, motion, {kCoarseStep, 0.0, true, 0.5 * kCoarseStep}).least <= 0.0;
+}
+
 Motion RandomMotions::drawAny(std::size_t waypoints) {
   Motion motion;
   while (motion.positions.size() < waypoints) {
@@ -95,8 +100,8 @@ Motion RandomMotions::drawAny(std::size_t waypoints) {
 Motion RandomMotions::drawNear(std::size_t waypoints) {
   for (int i = 0; i < kTries; ++i) {
     Motion motion = drawAny(waypoints);
-    const double least = sampleMotion(stage_, motion, {kCoarseStep, 0.0, true}).least;
-    if (least > 0.0 && least < kNear) return motion;
+    const double least = sampleMotion(stage_, motion, {kCoarseStep, 0.0, false, kNear}).least;
+    if (least > 0.0 && least < kNear && !touches(motion)) return motion;
   }
   throw Error(stage_.name(), "no motion comes near without a contact", "choose another path");
 }
@@ -104,7 +109,7 @@ Motion RandomMotions::drawNear(std::size_t waypoints) {
 Motion RandomMotions::drawColliding(std::size_t waypoints) {
   for (int i = 0; i < kTries; ++i) {
     Motion motion = drawAny(waypoints);
-    if (sampleMotion(stage_, motion, {kCoarseStep, 0.0, false}).least <= 0.0) return motion;
+    if (touches(motion)) return motion;
   }
   throw Error(stage_.name(), "no motion touches anything", "choose another path");
 }
@@ -116,9 +121,7 @@ Motion RandomMotions::drawGrazing(std::size_t waypoints) {
   double high = 1.0;
   for (int i = 0; i < kHalvings; ++i) {
     const double share = 0.5 * (low + high);
-    const bool touches =
-        sampleMotion(stage_, between(clear, touching, share), {kCoarseStep, 0.0, true}).least <= 0.0;
-    (touches ? high : low) = share;
+    (touches(between(clear, touching, share)) ? high : low) = share;
   }
   const double more = std::pow(10.0, uniform(-6.0, -2.0));
   return between(clear, touching, std::clamp(high + (uniformUnit(engine_) < 0.5 ? more : -more), 0.0, 1.0));

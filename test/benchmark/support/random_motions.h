@@ -35,6 +35,7 @@ class RandomMotions {
   Motion drawColliding(std::size_t waypoints);
   Motion drawGrazing(std::size_t waypoints);
   bool isClear(const Eigen::VectorXd& positions) const;
+  bool touches(const Motion& motion) const;
 
   const MotionStage& stage_;
   std::vector<Eigen::VectorXd> path_;

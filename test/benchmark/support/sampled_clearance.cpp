@@ -91,13 +91,14 @@ std::vector<double> sampleTimes(const MotionStage& stage, const Motion& motion, 
 
 Sampled sampleMotion(const MotionStage& stage, const Motion& motion, const Sampling& sampling) {
   Sampled sampled;
+  sampled.least = sampling.ceiling;
   MotionSampler sampler(stage, motion, sampled);
   const std::vector<double> times = sampleTimes(stage, motion, sampling.step);
   const double unknown = std::numeric_limits<double>::infinity();
   std::vector<double> distances(times.size(), unknown);
   // Far samples first: they make the seeds of the others small.
   for (std::size_t i = 0; i < times.size(); i += kFirstStride) {
-    const double seed = std::min(1e3, sampled.least + sampling.step);
+    const double seed = sampled.least + sampling.step;
     distances[i] = sampler.at(times[i], seed);
     if (distances[i] >= seed) distances[i] = unknown;
   }

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <limits>
+#include <vector>
 
 #include "benchmark/support/motion_stage.h"
 
@@ -11,6 +12,7 @@ struct Sampling {
   double step = 1e-3;      ///< metres that no point exceeds from sample to sample, by the motion's bound
   double threshold = 0.0;  ///< metres, of Sampled::first_below; 0: none is looked for
   bool refines = true;     ///< by golden section around the nearest samples
+  double ceiling = 1e3;    ///< metres; larger distances are not looked for, and the least is this then
 };
 
 /// What sampling sees of a motion. Each number occurs in the motion; the truth may be less.
