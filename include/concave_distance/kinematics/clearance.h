@@ -23,23 +23,25 @@ namespace concave_distance {
 /// A motion of joints. Between two waypoints every position runs on a straight line, angles as they are given
 /// (nothing is wrapped to the shorter way round); a floating joint's translation runs straight and its
 /// quaternion turns by the smaller angle at constant speed (slerp). With velocities every position but those
-/// of floating joints runs on the cubic that has them at the waypoints, as joint_trajectory_controller plays.
+/// of floating joints runs on the cubic that has them at the waypoints, with accelerations too on the quintic
+/// that has both, as joint_trajectory_controller plays them.
 struct JointMotion {
   /// As SceneKinematics::positionNames(), any of them: joints that are not named stay as they are in the
-  /// state, and joints that mimic a named one follow it. A floating joint needs all its seven.
+  /// state. Joints that mimic a named one follow it. Planar and floating joints need all their numbers.
   std::vector<std::string> joints;
-  std::vector<double> times;   ///< s, ascending; empty: the waypoints' numbers 0, 1, 2
-  Eigen::MatrixXd positions;   ///< rad or m, a row for each waypoint, a column for each name
-  Eigen::MatrixXd velocities;  ///< rad/s or m/s, likewise; empty: none
+  std::vector<double> times;      ///< s, ascending; empty: the waypoints' numbers 0, 1, 2
+  Eigen::MatrixXd positions;      ///< rad or m, a row for each waypoint, a column for each name
+  Eigen::MatrixXd velocities;     ///< rad/s or m/s, likewise; empty: none
+  Eigen::MatrixXd accelerations;  ///< rad/s^2 or m/s^2, likewise, with velocities alone; empty: none
 };
 
-/// A motion of one body, with the bodies that are attached to it or share its frame: translation of the
-/// body's frame straight, rotation by the smaller angle at constant speed (slerp) from waypoint to waypoint.
+/// A motion of one body, with what is attached to it (Attachment): from waypoint to waypoint the translation
+/// runs straight and the rotation by the smaller angle at constant speed (slerp).
 struct PoseMotion {
   std::string body;
   std::vector<double> times;               ///< as in JointMotion
-  std::vector<Eigen::Vector3d> positions;  ///< m, of the body's frame in the world
-  std::vector<Eigen::Quaterniond, Eigen::aligned_allocator<Eigen::Quaterniond>> rotations;
+  std::vector<Eigen::Vector3d> positions;  ///< m, of the body in the world as SceneState::world_from_body
+  std::vector<Eigen::Quaterniond, Eigen::aligned_allocator<Eigen::Quaterniond>> rotations;  ///< unit
 };
 
 /// Names a pair and a time to look at first, where a small distance is expected.
@@ -61,7 +63,8 @@ struct ClearanceParameters {
   /// Metres; the first time below it is looked for. Empty: only that of contact, if there is contact.
   std::optional<double> threshold;
   double time_budget = std::numeric_limits<double>::infinity();  ///< s
-  std::uint64_t query_limit = 10'000'000;                        ///< certified distances of pairs at one time
+  /// Pairs at one time that are looked at, by boxes or exactly; some 300 bytes each.
+  std::uint64_t sample_limit = 2'000'000;
   bool each_pair = false;  ///< proves every pair's own least distance to the tolerance
   bool niches = false;     ///< adds all niches of the nearest pair at the least time
   std::vector<ClearanceStart> starts;
@@ -72,10 +75,11 @@ struct ClearanceParameters {
 };
 
 enum class ClearanceStatus : std::uint8_t {
-  Ok,               ///< lower_bound is within the tolerance of the distance
-  Penetrating,      ///< bodies touch or overlap at `time`: distance and lower_bound are 0
-  BudgetExhausted,  ///< time or queries ran out first; lower_bound holds
-  NoPairs           ///< the motion moves no watched pair of bodies whose poses are known
+  Ok,           ///< lower_bound is within the tolerance of the distance
+  Penetrating,  ///< bodies touch or overlap at `time`: distance and lower_bound are 0
+  /// Time or samples ran out first, or rounding allows no proof to the tolerance; lower_bound holds.
+  BudgetExhausted,
+  NoPairs  ///< the motion moves no watched pair of bodies whose poses are known
 };
 std::string_view toString(ClearanceStatus status);
 
@@ -118,7 +122,7 @@ struct ClearanceResult {
   std::vector<std::size_t> not_located;
   /// Names of positions that leave the range that the URDF gives them.
   std::vector<std::string> outside_limits;
-  /// Velocities were given and not used, because a floating joint moves.
+  /// Velocities were given and not used for a floating joint.
   bool velocities_ignored = false;
   std::uint64_t queries = 0;      ///< certified distances
   std::uint64_t box_queries = 0;  ///< bounds by boxes alone
