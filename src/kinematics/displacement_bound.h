@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Geometry>
-#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -10,8 +9,8 @@
 
 namespace concave_distance::detail {
 
-/// Holds the corners of a body's box, in its frame.
-using BoxCorners = std::array<Eigen::Vector3d, 8>;
+/// Holds the corners of a body's box, in its frame: a row for each.
+using BoxCorners = Eigen::Array<double, 8, 3>;
 BoxCorners cornersOf(const BodyBounds& bounds);
 
 /// Bounds how far any point of one body of a pair comes in the frame of the other, in a span of a motion:
