@@ -137,7 +137,7 @@ bool touchesAtSteps(const MotionStage& stage, const Motion& motion, double step)
     const Eigen::VectorXd change = motion.positions[s + 1] - motion.positions[s];
     const double count = std::max(1.0, std::ceil(change.cwiseAbs().maxCoeff() / step));
     for (double i = s == 0 ? 0.0 : 1.0; i <= count; ++i) {
-      stage.place(motion.positions[s] + i / count * change, poses);
+      stage.place(motion.at(motion.times[s] + i / count * (motion.times[s + 1] - motion.times[s])), poses);
       if (stage.leastAt(poses, 1e-12) <= 0.0) return true;
     }
   }
