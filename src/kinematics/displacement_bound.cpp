@@ -133,6 +133,7 @@ DisplacementBound MotionSpan::seenFrom(bool is_from_a, const RelativePose& pose,
                                        const BoxCorners& corners) const {
   const BoxCorners points = placed(is_from_a ? pose.base_from_b : pose.base_from_a, corners);
   DisplacementBound bound;
+  bound.is_from_a = is_from_a;
   double turns_beyond = turns_;
   double terms = 0.0;  // of the sums below, for their rounding
   const std::size_t count = elements_.size();

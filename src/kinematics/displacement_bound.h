@@ -21,6 +21,7 @@ struct DisplacementBound {
   double speed = 0.0;         ///< at this end, of the fastest point; by share of the segment
   double acceleration = 0.0;  ///< infinite where the span is in several segments
   double way = 0.0;
+  bool is_from_a = true;  ///< seen from A: what is said of B's points; else of A's, seen from B
 
   /// Metres after a share of the segment from this end.
   double after(double share) const { return share * (speed + 0.5 * acceleration * share); }
