@@ -8,9 +8,6 @@
 namespace concave_distance::detail {
 namespace {
 
-/// Heights within this share of the smaller body are level: two faces of its size may be tilted by as many
-/// radians.
-constexpr double kLevelShare = 1e-4;
 /// A place that is level within that, but not within rounding, has corners where it is longer than this
 /// share: a shorter one moves a niche's points by so little, and small facets of a curved surface are always
 /// level.
@@ -52,7 +49,7 @@ const std::vector<NichePlace>& NichePlaces::of(const TrackedPair& pair, const Tr
     const double size = std::min(a.diameter(), b.diameter());
     const bool is_point = niche.kind == NicheKind::Point;
     const auto find = a.shape() != nullptr || b.shape() != nullptr ? findRoundCorners : findCorners;
-    count = find(a, b, pair.solution.a_from_b, niche.witness, kLevelShare * size,
+    count = find(a, b, pair.solution.a_from_b, niche.witness, tilt_ * size,
                  is_point ? kLeastShare * size : 0.0, is_point ? kPairLimitOfPoints : kPairLimitOfSets,
                  is_point ? kRingLimitOfPoints : kRingLimitOfSets, workspace_, corners);
   }
