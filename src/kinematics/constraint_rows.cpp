@@ -29,6 +29,16 @@ Vector6d twistAt(const RelativeTwist& twist, const Eigen::Vector3d& point) {
   return values;
 }
 
+/// Returns whether a value does not go on from that of the slot's last row: regions of overlap have merged or
+/// split, or the value that there was is not known now.
+bool hasJumped(const TrackedPair& pair, const TrackedNiche& niche, const NichePlace& place,
+               const ConstraintRow& last) {
+  if (pair.repeated) return false;
+  const SignedPlace& signed_place = niche.signed_place;
+  if (signed_place.state == SignedState::Known) return signed_place.since_cycle == pair.solution.cycle;
+  return place.is_overlapping && last.state == SlotState::Used && last.value < 0.0;
+}
+
 }  // namespace
 
 struct ConstraintRows::Parts {
@@ -131,6 +141,13 @@ void ConstraintRows::update(const SceneTracker::Pairs& pairs, const SceneState& 
   parts.carriers.update(*parts.joints, state, time);
   parts.collect(pairs, state);
   parts.overflow = parts.table.assign(parts.requests);
+  for (std::size_t i = 0; i < parts.requests.size(); ++i) {
+    const std::size_t slot = parts.requests[i].slot;
+    if (slot == SlotRequest::kNone) continue;
+    const Parts::Candidate& candidate = parts.candidates[i];
+    if (hasJumped(*pairs[candidate.pair], *candidate.niche, candidate.place, parts.rows[slot]))
+      parts.table.renew(slot);
+  }
   parts.jacobian.setZero();
   for (std::size_t slot = 0; slot < parts.rows.size(); ++slot) {
     parts.rows[slot] = ConstraintRow();

@@ -32,10 +32,10 @@ struct ConstraintRow {
   SlotState state = SlotState::Free;        ///< all that follows holds where it is Used
   std::shared_ptr<const TrackedPair> pair;  ///< nullptr where it is not
   std::uint64_t niche_id = 0;               ///< several rows have one where the niche is a segment or patch
-  std::uint64_t age = 0;                    ///< cycles since this row has its slot
-  double value = kNotComputed;              ///< metres: signed distance of the place
-  bool is_overlapping = false;              ///< without a signed value: value is 0, and in truth less
-  double lower_bound = kNotComputed;        ///< metres, proven: no place of the pair is nearer
+  std::uint64_t age = 0;              ///< cycles since this row has its slot, or its signed value has jumped
+  double value = kNotComputed;        ///< metres: signed distance of the place
+  bool is_overlapping = false;        ///< without a signed value: value is 0, and in truth less
+  double lower_bound = kNotComputed;  ///< metres, proven: no place of the pair is nearer
   Eigen::Vector3d normal = Eigen::Vector3d::Constant(kNotComputed);   ///< from A to B
   Eigen::Vector3d point_a = Eigen::Vector3d::Constant(kNotComputed);  ///< metres
   Eigen::Vector3d point_b = Eigen::Vector3d::Constant(kNotComputed);

@@ -152,7 +152,7 @@ TEST(LaunchFiles, OwnRobotHoldsFloatingJointsAtTheirOriginsUntilSomethingMovesTh
 INSTANTIATE_TEST_SUITE_P(Demos, DemoLaunchFile,
                          testing::Values("insertion.launch", "contact.launch", "interactive.launch",
                                          "velocity_guard.launch", "robot.launch", "cell.launch",
-                                         "crowd.launch", "simulation.launch"),
+                                         "crowd.launch", "rows.launch", "simulation.launch"),
                          [](const auto& info) {
                            const std::string name = info.param;
                            return name.substr(0, name.find('.'));
