@@ -1,4 +1,5 @@
-"""What is wrong at present, by name: logged once when it comes and when it goes, and shown in /diagnostics."""
+"""What bridges share: what is wrong at present, by name, logged once when it comes and when it goes and shown in
+/diagnostics; and parameters."""
 
 import rospy
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
@@ -38,3 +39,11 @@ class DiagnosticsPublisher:
         array = DiagnosticArray(status=[status])
         array.header.stamp = rospy.Time.now()
         self._publisher.publish(array)
+
+
+def positive_parameter(name, default, or_zero=False):
+    value = rospy.get_param(name, default)
+    is_number = isinstance(value, (int, float)) and not isinstance(value, bool)
+    if not is_number or not (0.0 < value < float("inf") or or_zero and value == 0.0):
+        raise ValueError("%s is %r (allowed: %s)" % (name, value, "0 or more" if or_zero else "greater than 0"))
+    return float(value)

@@ -8,7 +8,7 @@ import rospy
 from concave_distance.srv import ApplyScene, GetScene
 
 from distance_node_scene import listed_pairs, operation_message, read_scene
-from scene_operations import plan
+from scene_operations import ALLOW_CONTACT, plan
 
 _LARGEST_BATCH = 10000  # operations of one call
 _ATTEMPTS = 20
@@ -28,6 +28,7 @@ class DistanceNodeClient:
         self._next_check = 0.0
         self._next_attempt = 0.0
         self._refused = {}  # what was refused, by owner
+        self._unwatched = set()  # pairs that may touch and that the node does not watch anyway
         self._brought = None  # what was wanted and what the node had when nothing was left to do
 
     def update(self):
@@ -38,6 +39,7 @@ class DistanceNodeClient:
             self._uri, self.scene = uri, None
             self.own_margins.clear()
             self._refused.clear()
+            self._unwatched.clear()
         if uri is None or (self.scene is None and now < self._next_attempt):
             return
         if self.scene is None or (self._check_period and now >= self._next_check):
@@ -80,6 +82,8 @@ class DistanceNodeClient:
                 return
             for name, body in scene.bodies.items():
                 scene.bodies[name] = _remembered(known.bodies[name], body)
+        if answer.revision != self.revision:
+            self._unwatched.clear()  # Somebody else has changed the scene.
         self.scene, self.revision = scene, answer.revision
         self._problems.clear("distance node")
 
@@ -101,7 +105,7 @@ class DistanceNodeClient:
                 return
             bodies, contacts, margins = wanted_of(self.scene, self.own_margins)
             self._forget_changed(bodies)
-            operations, after = plan(bodies, contacts, margins, self.scene, frozenset(self._refused))
+            operations, after = plan(bodies, contacts - self._unwatched, margins, self.scene, frozenset(self._refused))
             if not operations:
                 self._problems.keep(self._refused, _is_owner)
                 self._brought = (changes, id(self.scene))
@@ -130,17 +134,24 @@ class DistanceNodeClient:
                 if begin:
                     self.scene = None  # Some batches were applied.
                 for fault in answer.faults:
-                    owner = batch[fault.operation].owner
-                    self._refused[owner] = wanted.get(owner)
-                    self._problems.set(owner, "refused: %s" % fault.message)
+                    self._note_fault(batch[fault.operation], fault.message, wanted)
                 if not answer.faults:
                     self._lose("apply_scene: %s" % answer.message)
                 return bool(answer.faults)
             self.revision = answer.revision
             if answer.message:
-                rospy.loginfo("apply_scene remarks: %s", answer.message)
+                rospy.loginfo("apply_scene remarks: %.500s", answer.message)
+        changed = {one.body for one in operations if one.kind != ALLOW_CONTACT}
+        self._unwatched = {pair for pair in self._unwatched if not changed & set(pair)}
         self.scene = after
         return True
+
+    def _note_fault(self, operation, text, wanted):
+        if operation.kind == ALLOW_CONTACT and "not a watched pair" in text:
+            self._unwatched.add(tuple(sorted((operation.body, operation.other))))
+            return
+        self._refused[operation.owner] = wanted.get(operation.owner)
+        self._problems.set(operation.owner, "refused: %s" % text)
 
 
 def _remembered(known, body):

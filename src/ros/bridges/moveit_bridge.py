@@ -15,7 +15,7 @@ import rospy
 
 sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
 
-from bridge_problems import DiagnosticsPublisher, Problems  # noqa: E402
+from bridge_problems import DiagnosticsPublisher, Problems, positive_parameter  # noqa: E402
 from distance_node_client import DistanceNodeClient  # noqa: E402
 from planning_scene_source import PlanningSceneSource  # noqa: E402
 from scene_operations import Names, wanted_bodies, wanted_contacts, wanted_margins  # noqa: E402
@@ -82,14 +82,6 @@ class MoveItBridge:
         problems = self._problems.texts
         message = "%d problems" % len(problems) if problems else "the planning scene is served"
         self._diagnostics.publish(message, problems, values)
-
-
-def positive_parameter(name, default, or_zero=False):
-    value = rospy.get_param(name, default)
-    is_number = isinstance(value, (int, float)) and not isinstance(value, bool)
-    if not is_number or not (0.0 < value < float("inf") or or_zero and value == 0.0):
-        raise ValueError("%s is %r (allowed: %s)" % (name, value, "0 or more" if or_zero else "greater than 0"))
-    return float(value)
 
 
 def main():

@@ -18,8 +18,8 @@ from planning_scene_state import PlanningSceneState
 
 TOPIC, SERVICE = "monitored_planning_scene", "get_planning_scene"
 _LONGEST_QUEUE = 1000
-# All of PlanningSceneComponents but joint values (2) and the octomap (32), which are not served.
-_COMPONENTS = 1023 & ~2 & ~32
+# All of PlanningSceneComponents but joint values (2); the octomap (32) is large, so that it is asked for once.
+_COMPONENTS, _OCTOMAP = 1023 & ~2 & ~32, 32
 
 
 class PlanningSceneSource:
@@ -37,6 +37,7 @@ class PlanningSceneSource:
         self._overflowed = False
         self._header = None  # of the newest connection
         self._classes = self._reader = None
+        self._knows_octomap = False
         self._next_question = None  # monotonic time; None: no connection yet
         self._subscriber = rospy.Subscriber(TOPIC, rospy.AnyMsg, self._receive, buff_size=1 << 24, tcp_nodelay=True)
 
@@ -98,6 +99,7 @@ class PlanningSceneSource:
         for one in faults:
             self._problems.set(_field_name(one), "from %s: %s; the rest is served" % (caller, one[2]))
         self._classes, self._reader = classes, SceneReader(faults)
+        self._knows_octomap = False
         self._ask_soon()  # What was there before this connection is not known.
 
     def _use(self, header, text):
@@ -128,8 +130,11 @@ class PlanningSceneSource:
             return
         try:
             # Messages that come from now on wait, and are taken over after the answer.
-            scene = rospy.ServiceProxy(name, planning_scene_service(self._classes[SCENE]))(_COMPONENTS).scene
-            value = dataclasses.replace(self._reader.read(scene), is_diff=False, octomap=self.state.octomap)
+            ask = rospy.ServiceProxy(name, planning_scene_service(self._classes[SCENE]))
+            scene = ask(_COMPONENTS if self._knows_octomap else _COMPONENTS | _OCTOMAP).scene
+            value = dataclasses.replace(self._reader.read(scene), is_diff=False)
+            if self._knows_octomap:
+                value = dataclasses.replace(value, octomap=self.state.octomap)
         except Exception as problem:
             self._problems.set(SERVICE, "'%s' does not answer: %s; asking again in %g s (topic and service have to be "
                                "of one version of MoveIt)" % (name, problem, period))
@@ -137,7 +142,7 @@ class PlanningSceneSource:
             return
         self.state.use(value)
         self.asked += 1
-        self.is_known = True
+        self.is_known = self._knows_octomap = True
         self._problems.clear(SERVICE)
         self._problems.clear("message")
         self._next_question = time.monotonic() + self._check_period if self._check_period else None

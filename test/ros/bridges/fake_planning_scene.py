@@ -36,6 +36,7 @@ class FakePlanningScene:
         self.objects, self.attached = {}, {}
         self.padding, self.scale, self.colors = {}, {}, {}
         self.contacts = self.classes["moveit_msgs/AllowedCollisionMatrix"]()
+        self.octomap = None  # an OctomapWithPose
         self.is_silent = False  # changes are made, but their diffs are lost
         scene_class = self.classes[moveit_definitions.PLANNING_SCENE]
         self.publisher = rospy.Publisher(topic, scene_class, queue_size=100) if topic else None
@@ -59,6 +60,8 @@ class FakePlanningScene:
         scene.robot_state.attached_collision_objects = list(self.attached.values())
         scene.robot_state.joint_state.name, scene.robot_state.joint_state.position = ["joint"], [0.0]
         scene.allowed_collision_matrix = self.contacts
+        if self.octomap:
+            scene.world.octomap = self.octomap
         scene.link_padding = [self.make("LinkPadding", link_name=a, padding=b) for a, b in self.padding.items()]
         scene.link_scale = [self.make("LinkScale", link_name=a, scale=b) for a, b in self.scale.items()]
         scene.object_colors = [self.make("ObjectColor", id=a, color=b) for a, b in self.colors.items()]
