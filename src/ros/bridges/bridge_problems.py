@@ -1,18 +1,27 @@
 """What bridges share: what is wrong at present, by name, logged once when it comes and when it goes and shown in
 /diagnostics; and parameters."""
 
+import re
+import time
+
 import rospy
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
+
+
+_LEAST_PAUSE = 5.0  # s, between two texts of one problem in the log
 
 
 class Problems:
     def __init__(self):
         self.texts = {}
+        self._logged = {}  # monotonic time, by name
 
     def set(self, name, text, is_expected=False):
         """is_expected: a part that has not started yet, such as MoveIt itself."""
-        if self.texts.get(name) != text:
-            self.texts[name] = text
+        is_new, is_other = name not in self.texts, self.texts.get(name) != text
+        self.texts[name] = text
+        if is_new or is_other and time.monotonic() - self._logged.get(name, 0.0) > _LEAST_PAUSE:
+            self._logged[name] = time.monotonic()
             (rospy.loginfo if is_expected else rospy.logwarn)("%s: %s", name, text)
 
     def clear(self, name):
@@ -21,7 +30,7 @@ class Problems:
 
     def keep(self, names, of):
         """Clears those that `of` accepts and `names` does not have."""
-        for name in [one for one in self.texts if of(one) and one not in names]:
+        for name in [one for one in list(self.texts) if of(one) and one not in names]:
             self.clear(name)
 
 
@@ -47,3 +56,12 @@ def positive_parameter(name, default, or_zero=False):
     if not is_number or not (0.0 < value < float("inf") or or_zero and value == 0.0):
         raise ValueError("%s is %r (allowed: %s)" % (name, value, "0 or more" if or_zero else "greater than 0"))
     return float(value)
+
+
+def prefix_parameter(name, default):
+    """What names of the bridge's bodies begin with."""
+    prefix = rospy.get_param(name, default)
+    if not isinstance(prefix, str) or not re.match(r"[A-Za-z][A-Za-z0-9_]*(/[A-Za-z0-9_]+)*/?\Z", prefix):
+        raise ValueError("%s is %r: begin with a letter, then letters, digits, _ and /; bodies whose names begin with it "
+                         "belong to this node" % (name, prefix))
+    return prefix

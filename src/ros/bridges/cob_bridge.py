@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Distances for cob_twist_controller: obstacle_distance and registerLinkOfInterest, as cob_obstacle_distance had them.
+"""Distances for cob_twist_controller: topics and services of cob_obstacle_distance.
 
 rosrun concave_distance cob_bridge.py __ns:=arm _chain_base_link:=arm_base_link _links:="[arm_5_link]"
 Publishes the pairs of registered links as cob_control_msgs/ObstacleDistances in the frame chain_base_link. See
@@ -18,10 +18,11 @@ from concave_distance.srv import ListBodies
 
 sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
 
-from bridge_problems import DiagnosticsPublisher, Problems, positive_parameter  # noqa: E402
+from bridge_problems import DiagnosticsPublisher, Problems, positive_parameter, prefix_parameter  # noqa: E402
 from cob_messages import message_classes, registration_class  # noqa: E402
 from message_definitions import WrongDefinition  # noqa: E402
 from obstacle_distances import entries, entries_of_niches, links_of  # noqa: E402
+from registered_obstacles import RegisteredObstacles  # noqa: E402
 from rigid_transforms import transformed  # noqa: E402
 
 _TRANSFORM_TIMEOUT = 0.1  # s
@@ -52,6 +53,9 @@ class CobBridge:
         self._listener = tf2_ros.TransformListener(self._buffer)
         self._publisher = rospy.Publisher("obstacle_distance", distances_class, queue_size=1)
         self._diagnostics = DiagnosticsPublisher()
+        self._obstacles = RegisteredObstacles(
+            "obstacle_distance/registerObstacle", self._node, prefix_parameter("~obstacle_prefix", "registered/"),
+            self._problems, _LIST_PERIOD)
         for link in rospy.get_param("~links", []):
             self._add_link(link)
         made = registration_class()
@@ -108,6 +112,7 @@ class CobBridge:
             if time.monotonic() >= self._next_list:
                 self._next_list = time.monotonic() + _LIST_PERIOD
                 self._update_bodies()
+            self._obstacles.update()
             if time.monotonic() >= next_report:
                 next_report = time.monotonic() + 1.0
                 self._report()
@@ -141,7 +146,7 @@ class CobBridge:
         message = self._distance_class()
         message.header.frame_id, message.header.stamp = self._base, entry.stamp
         message.link_of_interest = entry.link[len(self._link_prefix):]
-        message.obstacle_id, message.distance = entry.obstacle, entry.distance
+        message.obstacle_id, message.distance = self._obstacles.id_of(entry.obstacle), entry.distance
         for vector, point in ((message.frame_vector, base_from_link[0]),
                               (message.nearest_point_frame_vector, transformed(base_from_frame, entry.point_on_link)),
                               (message.nearest_point_obstacle_vector,

@@ -41,8 +41,6 @@ def message_classes(load=importlib.import_module):
         classes = {DISTANCES: module.ObstacleDistances, DISTANCE: module.ObstacleDistance}
     except ImportError:
         classes = classes_from(DISTANCES, DEFINITION)
-        for made in classes.values():
-            made._full_text = DEFINITION
     faults = field_faults(classes, ((DISTANCES, "distances", DISTANCE + "[]", "nothing can be published"),) + _FIELDS)
     if faults:
         raise WrongDefinition("; ".join(text for _, _, text in faults))

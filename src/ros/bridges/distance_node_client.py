@@ -29,14 +29,14 @@ class DistanceNodeClient:
         self._next_attempt = 0.0
         self._refused = {}  # what was refused, by owner
         self._unwatched = set()  # pairs that may touch and that the node does not watch anyway
-        self._brought = None  # what was wanted and what the node had when nothing was left to do
+        self._brought = None  # `changes` of what was wanted when nothing was left to do; None: since then it has changed
 
     def update(self):
         """Looks whether the node is there and the same, and reads its scene where that is not known or due."""
         now = time.monotonic()
         uri = self._look_up()
         if uri != self._uri:
-            self._uri, self.scene = uri, None
+            self._uri, self.scene, self._brought = uri, None, None
             self.own_margins.clear()
             self._refused.clear()
             self._unwatched.clear()
@@ -84,11 +84,11 @@ class DistanceNodeClient:
                 scene.bodies[name] = _remembered(known.bodies[name], body)
         if answer.revision != self.revision:
             self._unwatched.clear()  # Somebody else has changed the scene.
-        self.scene, self.revision = scene, answer.revision
+        self.scene, self.revision, self._brought = scene, answer.revision, None
         self._problems.clear("distance node")
 
     def _lose(self, text):
-        self.scene = None
+        self.scene = self._brought = None
         self._next_attempt = time.monotonic() + 1.0
         self._problems.set("distance node", text + "; trying again")
 
@@ -98,7 +98,7 @@ class DistanceNodeClient:
         changes: a number that is another one when something else is wanted.
         wanted_of: from a NodeScene and margins to bodies, contacts and margins.
         """
-        if self.scene is None or self._brought == (changes, id(self.scene)):
+        if self._brought == changes:
             return
         for _ in range(_ATTEMPTS):
             if self.scene is None:
@@ -108,7 +108,7 @@ class DistanceNodeClient:
             operations, after = plan(bodies, contacts - self._unwatched, margins, self.scene, frozenset(self._refused))
             if not operations:
                 self._problems.keep(self._refused, _is_owner)
-                self._brought = (changes, id(self.scene))
+                self._brought = changes
                 return
             if not self._send(operations, after, bodies):
                 return
@@ -132,7 +132,7 @@ class DistanceNodeClient:
                 return False
             if not answer.success:
                 if begin:
-                    self.scene = None  # Some batches were applied.
+                    self.scene = self._brought = None  # Some batches were applied.
                 for fault in answer.faults:
                     self._note_fault(batch[fault.operation], fault.message, wanted)
                 if not answer.faults:

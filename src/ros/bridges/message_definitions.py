@@ -4,6 +4,7 @@ In: a type, the definition that its publisher sends, its md5sum. Out: classes by
 of another type, in words.
 """
 
+import functools
 import hashlib
 import struct
 
@@ -22,7 +23,7 @@ def classes_from(type_name, definition, md5sum=None):
     Raises WrongDefinition where the text cannot be read or is not that of the md5sum that comes with it.
     """
     try:
-        classes = genpy.dynamic.generate_dynamic(type_name, definition)
+        classes = _generated(type_name, definition)
     except Exception as problem:  # The generator lets errors of several modules through.
         raise WrongDefinition("the definition of %s cannot be read: %s" % (type_name, problem))
     made = classes[type_name]._md5sum
@@ -30,6 +31,12 @@ def classes_from(type_name, definition, md5sum=None):
         raise WrongDefinition("the definition of %s has md5sum %s, but its connection says %s; rebuild the publisher" % (
             type_name, made, md5sum))
     return classes
+
+
+@functools.lru_cache(maxsize=8)
+def _generated(type_name, definition):
+    """It takes a second; publishers come again with the same definition."""
+    return genpy.dynamic.generate_dynamic(type_name, definition)
 
 
 def field_faults(classes, fields):

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""MoveIt's planning scene in a distance node: objects, attached objects, allowed contacts and paddings.
+"""MoveIt's planning scene in a distance node: objects, attached objects, allowed contacts, paddings, the octomap.
 
 rosrun concave_distance moveit_bridge.py _distance_node:=concave_distance
 Follows monitored_planning_scene, asks get_planning_scene where it starts late or messages are lost, and brings the
@@ -15,24 +15,23 @@ import rospy
 
 sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
 
-from bridge_problems import DiagnosticsPublisher, Problems, positive_parameter  # noqa: E402
+from bridge_problems import DiagnosticsPublisher, Problems, positive_parameter, prefix_parameter  # noqa: E402
 from distance_node_client import DistanceNodeClient  # noqa: E402
+from octomap_relay import OctomapRelay  # noqa: E402
 from planning_scene_source import PlanningSceneSource  # noqa: E402
 from scene_operations import Names, wanted_bodies, wanted_contacts, wanted_margins  # noqa: E402
 
 
 class MoveItBridge:
     def __init__(self):
-        prefix = rospy.get_param("~prefix", "moveit/")
-        if not prefix[:1].isalpha() or not all(one.isalnum() or one in "_/" for one in prefix):
-            raise ValueError("~prefix is '%s': begin with a letter, then letters, digits, _ and /; bodies whose names "
-                             "begin with it belong to this node" % prefix)
+        prefix = prefix_parameter("~prefix", "moveit/")
         self._plane_size = positive_parameter("~plane_size", 20.0)
         check_period = positive_parameter("~check_period", 10.0, or_zero=True)
         self._names = Names(prefix, rospy.get_param("~link_prefix", ""))
         self._problems = Problems()
         self._woken = threading.Event()
-        self._source = PlanningSceneSource(self._problems, self._woken.set, check_period)
+        self._octomap = OctomapRelay()
+        self._source = PlanningSceneSource(self._problems, self._woken.set, self._octomap.use, check_period)
         self._node = DistanceNodeClient(rospy.get_param("~distance_node", "concave_distance"), prefix, self._problems,
                                         check_period)
         self._diagnostics = DiagnosticsPublisher()
@@ -64,8 +63,8 @@ class MoveItBridge:
             if scale != 1.0:
                 texts["planning scene, link_scale of '%s'" % link] = (
                     "it is %g, but scales are not served: distances are those of the link at its own size" % scale)
-        if state.octomap:
-            texts["planning scene, octomap"] = "%s is not served: distances do not know of it" % state.octomap
+        if self._octomap.problem():
+            texts["planning scene, octomap"] = self._octomap.problem()
         self._problems.keep(texts, lambda name: name.startswith("planning scene, "))
         for name, text in texts.items():
             self._problems.set(name, text)
@@ -75,7 +74,7 @@ class MoveItBridge:
         values = [("scene", state.name), ("planning frame", state.planning_frame),
                   ("messages", self._source.received), ("whole scenes asked for", self._source.asked),
                   ("objects", len(state.world)), ("attached objects", len(state.attached)),
-                  ("bodies served", len(scene.bodies) if scene else 0),
+                  ("octomap", self._octomap.text), ("bodies served", len(scene.bodies) if scene else 0),
                   ("contacts allowed", len(scene.off) if scene else 0),
                   ("links with padding", sum(1 for value in state.padding.values() if value > 0.0)),
                   ("revision of the distance node", self._node.revision)]

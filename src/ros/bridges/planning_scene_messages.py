@@ -5,7 +5,7 @@ from rigid_transforms import IDENTITY
 
 SCENE = "moveit_msgs/PlanningScene"
 _WORLD = "moveit_msgs/PlanningSceneWorld"
-_OBJECT = "moveit_msgs/CollisionObject"
+OBJECT = "moveit_msgs/CollisionObject"
 _ATTACHED = "moveit_msgs/AttachedCollisionObject"
 _STATE = "moveit_msgs/RobotState"
 _MATRIX = "moveit_msgs/AllowedCollisionMatrix"
@@ -15,10 +15,10 @@ _NO_ATTACHED = "no attached object is served"
 # Without these nothing can be served.
 NEEDED = (
     (SCENE, "world", _WORLD, _NO_OBJECTS),
-    (_WORLD, "collision_objects", _OBJECT + "[]", _NO_OBJECTS),
-    (_OBJECT, "header", "std_msgs/Header", _NO_OBJECTS),
-    (_OBJECT, "id", "string", _NO_OBJECTS),
-    (_OBJECT, "operation", "byte", _NO_OBJECTS),
+    (_WORLD, "collision_objects", OBJECT + "[]", _NO_OBJECTS),
+    (OBJECT, "header", "std_msgs/Header", _NO_OBJECTS),
+    (OBJECT, "id", "string", _NO_OBJECTS),
+    (OBJECT, "operation", "byte", _NO_OBJECTS),
 )
 # Where one of these is missing the rest is served.
 WANTED = (
@@ -31,17 +31,17 @@ WANTED = (
     (SCENE, "link_padding", "moveit_msgs/LinkPadding[]", "links have no padding"),
     (SCENE, "link_scale", "moveit_msgs/LinkScale[]", "scales other than 1 are not noticed"),
     (SCENE, "object_colors", "moveit_msgs/ObjectColor[]", "objects are grey"),
-    (_WORLD, "octomap", "octomap_msgs/OctomapWithPose", "an octomap is not noticed"),
-    (_OBJECT, "primitives", "shape_msgs/SolidPrimitive[]", "primitives are not served"),
-    (_OBJECT, "primitive_poses", "geometry_msgs/Pose[]", "primitives are at the pose of their object"),
-    (_OBJECT, "meshes", "shape_msgs/Mesh[]", "meshes are not served"),
-    (_OBJECT, "mesh_poses", "geometry_msgs/Pose[]", "meshes are at the pose of their object"),
-    (_OBJECT, "planes", "shape_msgs/Plane[]", "planes are not served"),
-    (_OBJECT, "plane_poses", "geometry_msgs/Pose[]", "planes are at the pose of their object"),
+    (_WORLD, "octomap", "octomap_msgs/OctomapWithPose", "an octomap is not served"),
+    (OBJECT, "primitives", "shape_msgs/SolidPrimitive[]", "primitives are not served"),
+    (OBJECT, "primitive_poses", "geometry_msgs/Pose[]", "primitives are at the pose of their object"),
+    (OBJECT, "meshes", "shape_msgs/Mesh[]", "meshes are not served"),
+    (OBJECT, "mesh_poses", "geometry_msgs/Pose[]", "meshes are at the pose of their object"),
+    (OBJECT, "planes", "shape_msgs/Plane[]", "planes are not served"),
+    (OBJECT, "plane_poses", "geometry_msgs/Pose[]", "planes are at the pose of their object"),
     (_STATE, "attached_collision_objects", _ATTACHED + "[]", _NO_ATTACHED),
     (_STATE, "is_diff", "bool", "every list of attached objects is taken as a diff"),
     (_ATTACHED, "link_name", "string", _NO_ATTACHED),
-    (_ATTACHED, "object", _OBJECT, _NO_ATTACHED),
+    (_ATTACHED, "object", OBJECT, _NO_ATTACHED),
     (_ATTACHED, "touch_links", "string[]", "attached objects are watched against all links but their own"),
     (_MATRIX, "entry_names", "string[]", "no contact is allowed"),
     (_MATRIX, "entry_values", "moveit_msgs/AllowedCollisionEntry[]", "no contact is allowed"),
@@ -59,6 +59,7 @@ class SceneReader:
     def __init__(self, faults):
         """faults: those of message_definitions.field_faults for WANTED."""
         self._absent = {(type_name, field) for type_name, field, _ in faults}
+        self.has_octomap = (_WORLD, "octomap") not in self._absent
 
     def _field(self, type_name, message, field, fallback):
         return fallback if (type_name, field) in self._absent else getattr(message, field, fallback)
@@ -69,7 +70,7 @@ class SceneReader:
         return SceneMessage(
             is_diff=bool(self._field(SCENE, message, "is_diff", True)),
             name=self._field(SCENE, message, "name", ""),
-            objects=tuple(self._object(item) for item in message.world.collision_objects),
+            objects=tuple(self.read_object(item) for item in message.world.collision_objects),
             attached=self._attached(robot_state),
             robot_state_is_diff=bool(self._field(_STATE, robot_state, "is_diff", True)),
             has_joints=_has_joints(robot_state),
@@ -93,16 +94,16 @@ class SceneReader:
         items = self._field(_STATE, robot_state, "attached_collision_objects", ()) if robot_state else ()
         if {(_ATTACHED, "link_name"), (_ATTACHED, "object")} & self._absent:
             return ()
-        return tuple(AttachedMessage(item.link_name, self._object(item.object),
+        return tuple(AttachedMessage(item.link_name, self.read_object(item.object),
                                      tuple(self._field(_ATTACHED, item, "touch_links", ()))) for item in items)
 
-    def _object(self, item):
+    def read_object(self, item):
         pose = getattr(item, "pose", _MISSING)
         shapes, poses, faults = [], [], []
         for names, poses_name, to_shape in (("primitives", "primitive_poses", _primitive),
                                             ("meshes", "mesh_poses", _mesh), ("planes", "plane_poses", _plane)):
-            given = self._field(_OBJECT, item, names, ())
-            at = [_pose(one) for one in self._field(_OBJECT, item, poses_name, ())]
+            given = self._field(OBJECT, item, names, ())
+            at = [_pose(one) for one in self._field(OBJECT, item, poses_name, ())]
             if item.operation in (ADD, APPEND):
                 if len(at) > len(given):
                     faults.append("it has %d %s but %d %s" % (len(given), names, len(at), poses_name))

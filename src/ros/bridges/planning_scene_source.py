@@ -12,6 +12,7 @@ import time
 import rosgraph
 import rospy
 
+import octomap_relay
 from message_definitions import WrongDefinition, classes_from, field_faults, planning_scene_service
 from planning_scene_messages import NEEDED, SCENE, WANTED, SceneReader
 from planning_scene_state import PlanningSceneState
@@ -23,14 +24,15 @@ _COMPONENTS, _OCTOMAP = 1023 & ~2 & ~32, 32
 
 
 class PlanningSceneSource:
-    def __init__(self, problems, wake, check_period):
-        """wake: called from the thread of a connection when a message waits. check_period: s, 0: ask only when
-        messages may be missing."""
+    def __init__(self, problems, wake, use_octomap, check_period):
+        """wake: called from the thread of a connection when a message waits. use_octomap: called with each octomap and
+        the class of its inner message. check_period: s, 0: ask only when messages may be missing."""
         self.state = PlanningSceneState()
         self.received = self.asked = 0
         self.is_known = False
         self._problems = problems
         self._wake = wake
+        self._use_octomap = use_octomap
         self._check_period = check_period
         self._lock = threading.Lock()
         self._queue = collections.deque()
@@ -108,14 +110,20 @@ class PlanningSceneSource:
             return
         self.received += 1
         try:
-            value = self._reader.read(self._classes[SCENE]().deserialize(text))
+            message = self._classes[SCENE]().deserialize(text)
+            value = self._reader.read(message)
         except Exception as problem:  # Whatever a broken message makes the generated code raise.
             self._problems.set("message", "one from %s cannot be read: %s; the whole scene is asked for" % (
                 header.get("callerid"), problem))
             self._ask_soon()
             return
-        self.state.use(value)
+        self._take_over(value, message)
         self.is_known = self.is_known or not value.is_diff
+
+    def _take_over(self, value, message):
+        self.state.use(value)
+        if value.octomap is not None or not value.is_diff and self._reader.has_octomap:
+            self._use_octomap(message.world.octomap, self._classes[octomap_relay.TYPE])
 
     def _ask(self):
         name = rospy.resolve_name(SERVICE)
@@ -133,14 +141,15 @@ class PlanningSceneSource:
             ask = rospy.ServiceProxy(name, planning_scene_service(self._classes[SCENE]))
             scene = ask(_COMPONENTS if self._knows_octomap else _COMPONENTS | _OCTOMAP).scene
             value = dataclasses.replace(self._reader.read(scene), is_diff=False)
-            if self._knows_octomap:
-                value = dataclasses.replace(value, octomap=self.state.octomap)
         except Exception as problem:
             self._problems.set(SERVICE, "'%s' does not answer: %s; asking again in %g s (topic and service have to be "
                                "of one version of MoveIt)" % (name, problem, period))
             self._next_question = time.monotonic() + period
             return
-        self.state.use(value)
+        if self._knows_octomap:
+            self.state.use(dataclasses.replace(value, octomap=self.state.octomap))
+        else:
+            self._take_over(value, scene)
         self.asked += 1
         self.is_known = self._knows_octomap = True
         self._problems.clear(SERVICE)

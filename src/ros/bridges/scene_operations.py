@@ -88,7 +88,7 @@ class Names:
 
 
 def _are_same(a, b):
-    return (a.kind == b.kind and a.triangles == b.triangles and len(a.numbers) == len(b.numbers) and
+    return a == b or (a.kind == b.kind and a.triangles == b.triangles and len(a.numbers) == len(b.numbers) and
             all(abs(x - y) <= 1e-9 * max(1.0, abs(x)) for x, y in zip(a.numbers, b.numbers)))
 
 

@@ -2,6 +2,8 @@
 
 Their md5sums are those of moveit_msgs of ROS Noetic, and of ROS Kinetic (without CollisionObject.pose).
 """
+import functools
+
 import genpy.dynamic
 
 PLANNING_SCENE = "moveit_msgs/PlanningScene"
@@ -183,10 +185,7 @@ def older_definition():
                                ("string[] subframe_names\ngeometry_msgs/Pose[] subframe_poses\nbyte ADD=0", "byte ADD=0")])
 
 
+@functools.lru_cache(maxsize=None)
 def message_classes(text=None):
     """Classes by type, of a definition or of the newest one."""
-    text = text or definition()
-    classes = genpy.dynamic.generate_dynamic(PLANNING_SCENE, text)
-    for made in classes.values():
-        made._full_text = text
-    return classes
+    return genpy.dynamic.generate_dynamic(PLANNING_SCENE, text or definition())

@@ -16,7 +16,9 @@ from geometry_msgs.msg import TransformStamped
 from shape_msgs.msg import SolidPrimitive
 from tf2_msgs.msg import TFMessage
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", "..", "..", "src", "ros", "bridges"))
+HERE = os.path.dirname(os.path.realpath(__file__))
+sys.path[:0] = [os.path.join(HERE, "..", "bridges"), os.path.join(HERE, "..", "..", "..", "src", "ros", "bridges")]
+import moveit_definitions  # noqa: E402
 from cob_messages import registration_class  # noqa: E402
 
 DISTANCES = "cob_control_msgs/ObstacleDistances"
@@ -97,7 +99,7 @@ class CobBridge(unittest.TestCase):
         made.primitives = [SolidPrimitive(type=kind, dimensions=dimensions)]
         self.change(made)
 
-    def wait_for(self, messages, check, what, seconds=30.0):
+    def wait_for(self, messages, check, what, seconds=60.0):
         """The first message from now on that the check accepts."""
         del messages[:]
         end, at = time.monotonic() + seconds, 0
@@ -180,7 +182,27 @@ class CobBridge(unittest.TestCase):
         self.assertAlmostEqual(near.nearest_point_frame_vector.z, 0.5, 6)
         self.assertAlmostEqual(far.nearest_point_frame_vector.z, -0.5, 6)
 
-    def test_7_without_an_obstacle_a_message_says_so(self):
+    def test_7_obstacles_that_are_registered_by_a_message(self):
+        kind = moveit_definitions.message_classes()["moveit_msgs/CollisionObject"]
+        publisher = rospy.Publisher("/arm/obstacle_distance/registerObstacle", kind, queue_size=1, latch=True)
+        item = kind(id="crate 1", operation=kind.ADD)
+        item.header.frame_id, item.pose.orientation.w = "world", 1.0
+        item.primitives = [SolidPrimitive(type=SolidPrimitive.BOX, dimensions=[1.0, 1.0, 1.0])]
+        item.primitive_poses = [type(item.pose)()]
+        at = item.primitive_poses[0]
+        at.position.x, at.position.y, at.position.z, at.orientation.w = 6.0, 2.0, 0.5, 1.0
+        publisher.publish(item)
+        found = self.wait_for(self.arm, lambda found: ("tip", "crate 1") in found, "no crate")
+        self.assertAlmostEqual(found[("tip", "crate 1")][0].distance, 1.0, 6)
+        item.operation, at.position.x = kind.MOVE, 7.0
+        publisher.publish(item)
+        self.wait_for(self.arm, lambda found: ("tip", "crate 1") in found and abs(
+            found[("tip", "crate 1")][0].distance - 2.0) < 1e-6, "the crate was not moved")
+        item.operation = kind.REMOVE
+        publisher.publish(item)
+        self.wait_for(self.arm, lambda found: ("tip", "crate 1") not in found, "the crate stays")
+
+    def test_8_without_an_obstacle_a_message_says_so(self):
         for name in ("ball", "near", "far", "posts"):
             self.change(SceneOperation(operation=SceneOperation.REMOVE, body=name))
         self.wait_for(self.arm, lambda found: set(found) == {("tip", "base")}, "an obstacle stays")

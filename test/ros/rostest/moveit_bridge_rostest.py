@@ -96,7 +96,7 @@ class MoveItBridge(unittest.TestCase):
         fake.publisher.unregister()
         fake.service.shutdown("the test has ended")
 
-    def eventually(self, check, what, seconds=30.0):
+    def eventually(self, check, what, seconds=60.0):
         end = time.monotonic() + seconds
         while time.monotonic() < end:
             try:
@@ -281,7 +281,7 @@ class MoveItBridge(unittest.TestCase):
             time.sleep(0.02)
         self.fake.is_silent = False
         self.assertGreater(len(self.fake.objects), 2)
-        self.eventually(self.is_served, "the bodies are not the sum of the diffs", 60.0)
+        self.eventually(self.is_served, "the bodies are not the sum of the diffs", 120.0)
 
     def test_7_what_is_not_served_is_named_and_the_rest_is_served(self):
         self.fake = FakePlanningScene()
@@ -295,12 +295,20 @@ class MoveItBridge(unittest.TestCase):
         self.fake.scale["tip"] = 1.5
         self.fake.octomap = self.fake.classes["octomap_msgs/OctomapWithPose"]()
         self.fake.octomap.octomap.id, self.fake.octomap.octomap.data = "OcTree", [1, 2, 3]
+        self.fake.octomap.header.frame_id = "map"
         self.eventually(lambda: self.fake.publisher.get_num_connections() == 1, "the bridge does not listen")
         self.fake.put(bad, lost, far, odd, self.fake.object("empty"), good)
         for words in (("'bad'", "not finite"), ("'lost'", "nowhere"), ("'empty'", "no shapes"), ("'odd'", "type 77"),
-                      ("object 'far'", "refused", "1e9"), ("octomap", "3 bytes", "not served"),
+                      ("object 'far'", "refused", "1e9"), ("octomap", "3 bytes", "nobody subscribes"),
                       ("link_scale of 'tip'", "1.5", "not served")):
             self.expect_problem(*words)
+        octomaps = []
+        rospy.Subscriber("moveit_bridge/octomap", rospy.AnyMsg, octomaps.append)
+        self.eventually(lambda: octomaps and not any("octomap" in key and "planning" in key for key in self.status),
+                        "the octomap is not published")
+        self.assertEqual(octomaps[0]._connection_header["type"], "octomap_msgs/Octomap")
+        octomap = self.fake.classes["octomap_msgs/Octomap"]().deserialize(octomaps[0]._buff)
+        self.assertEqual((octomap.header.frame_id, octomap.id, list(octomap.data)), ("map", "OcTree", [1, 2, 3]))
         self.assertEqual([name[:13] for name in self.bodies()], ["moveit/box_1_"])
         self.fake.objects = {"far": self.ball("far")}
         self.fake.put(*self.fake.objects.values())
