@@ -65,6 +65,7 @@ if(CONCAVE_DISTANCE_WITH_ROS)
     src/ros/bridges/planning_scene_messages.py
     src/ros/bridges/planning_scene_source.py
     src/ros/bridges/planning_scene_state.py
+    src/ros/bridges/planning_scene_values.py
     src/ros/bridges/registered_obstacles.py
     src/ros/bridges/rigid_transforms.py
     src/ros/bridges/scene_operations.py

@@ -5,7 +5,7 @@ from geometry_msgs.msg import Point, Pose
 from shape_msgs.msg import Mesh, MeshTriangle, SolidPrimitive
 from std_msgs.msg import ColorRGBA
 
-from planning_scene_state import Shape
+from planning_scene_values import Shape
 from rigid_transforms import IDENTITY
 from scene_operations import NodeScene, canonical
 

@@ -1,6 +1,6 @@
-"""Reads moveit_msgs/PlanningScene messages of any version into the values of planning_scene_state."""
+"""Reads moveit_msgs/PlanningScene messages of any version into the values of planning_scene_values."""
 
-from planning_scene_state import APPEND, ADD, AllowedContacts, AttachedMessage, ObjectMessage, SceneMessage, Shape
+from planning_scene_values import ADD, APPEND, AllowedContacts, AttachedMessage, ObjectMessage, SceneMessage, Shape
 from rigid_transforms import IDENTITY
 
 SCENE = "moveit_msgs/PlanningScene"

@@ -10,7 +10,8 @@ import rospy
 from distance_node_client import DistanceNodeClient
 from message_definitions import WrongDefinition, classes_from, field_faults
 from planning_scene_messages import OBJECT, NEEDED, WANTED, SceneReader
-from planning_scene_state import PlanningSceneState, SceneMessage
+from planning_scene_state import PlanningSceneState
+from planning_scene_values import SceneMessage
 from scene_operations import Names, wanted_bodies
 
 _PLANE_SIZE = 20.0  # m

@@ -9,7 +9,7 @@ import zlib
 from dataclasses import dataclass, field, replace
 from typing import Dict, FrozenSet, Tuple
 
-from planning_scene_state import Shape
+from planning_scene_values import Shape
 from rigid_transforms import IDENTITY, are_near, composed, inverse
 
 ADD, MOVE, REMOVE, ATTACH, DETACH, ALLOW_CONTACT, DISALLOW_CONTACT, SET_MARGIN = range(8)
@@ -206,23 +206,27 @@ def plan(wanted, contacts, margins, node, refused=frozenset()):
         changes += _change(name, had, body, node.reference) if had else _addition(name, body, node.reference)
         bodies[name] = body
     made_again = {operation.body for operation in removals}
-    present = (set(node.bodies) - made_again) | node.others
-    off = {pair for pair in node.off if set(pair) <= present}
-    held = {tuple(sorted((name, other))) for name, body in bodies.items() for other in body.touch + (body.link,)}
-    watched = sorted(off - set(contacts) - held)
-    allowed = sorted(pair for pair in set(contacts) - off
-                     if set(pair) <= set(bodies) | node.others and contact_owner(pair) not in refused)
+    off = frozenset(pair for pair in node.off if set(pair) <= (set(node.bodies) - made_again) | node.others)
+    to_watch, to_allow = _contact_changes(contacts, off, bodies, node.others)
+    to_allow = [pair for pair in to_allow if contact_owner(pair) not in refused]
     changed_margins = {name: margin for name, margin in margins.items()
                        if name in node.margins and abs(node.margins[name] - margin) > 1e-12 and
                        padding_owner(name) not in refused}
-    operations = [Operation(DISALLOW_CONTACT, a, contact_owner((a, b)), other=b) for a, b in watched]
+    operations = [Operation(DISALLOW_CONTACT, pair[0], contact_owner(pair), other=pair[1]) for pair in to_watch]
     operations += removals + changes
     operations += [Operation(SET_MARGIN, name, padding_owner(name), margin=changed_margins[name])
                    for name in sorted(changed_margins)]
-    operations += [Operation(ALLOW_CONTACT, a, contact_owner((a, b)), other=b) for a, b in allowed]
-    after = NodeScene(bodies, node.others, frozenset((off - set(watched)) | set(allowed)),
-                      {**node.margins, **changed_margins}, node.reference)
+    operations += [Operation(ALLOW_CONTACT, pair[0], contact_owner(pair), other=pair[1]) for pair in to_allow]
+    after = NodeScene(bodies, node.others, off - set(to_watch) | set(to_allow), {**node.margins, **changed_margins},
+                      node.reference)
     return operations, after
+
+
+def _contact_changes(contacts, off, bodies, others):
+    """Pairs to watch again and pairs to switch off. Those that a body's attachment switches off stay so."""
+    held = {tuple(sorted((name, other))) for name, body in bodies.items() for other in body.touch + (body.link,)}
+    present = set(bodies) | others
+    return sorted(off - set(contacts) - held), sorted(pair for pair in set(contacts) - off if set(pair) <= present)
 
 
 def contact_owner(pair):

@@ -8,7 +8,7 @@ from geometry_msgs.msg import Point, Pose
 from message_definitions import WrongDefinition, classes_from, field_faults, planning_scene_service
 from moveit_definitions import MD5_WITH_POSE, MD5_WITHOUT_POSE, PLANNING_SCENE, definition, older_definition
 from planning_scene_messages import NEEDED, WANTED, SceneReader
-from planning_scene_state import ADD, MOVE, Shape
+from planning_scene_values import ADD, MOVE, Shape
 from rigid_transforms import IDENTITY
 from shape_msgs.msg import Mesh, MeshTriangle, Plane, SolidPrimitive
 

@@ -7,7 +7,7 @@ import sys
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", "..", "..", "src", "ros", "bridges"))
 sys.dont_write_bytecode = True
-from planning_scene_state import (  # noqa: E402
+from planning_scene_values import (  # noqa: E402
     ADD, APPEND, MOVE, REMOVE, AllowedContacts, AttachedMessage, ObjectMessage, SceneMessage, Shape)
 
 FRAME = "world"

@@ -5,8 +5,9 @@ import unittest
 
 from plain_scene import (
     FRAME, LINKS, NONE, UNIT, PlainScene, RandomDiffs, are_equal, frames, matrix, times)
-from planning_scene_state import (
-    ADD, APPEND, MOVE, REMOVE, AllowedContacts, AttachedMessage, ObjectMessage, PlanningSceneState, SceneMessage, Shape)
+from planning_scene_state import PlanningSceneState
+from planning_scene_values import (
+    ADD, APPEND, MOVE, REMOVE, AllowedContacts, AttachedMessage, ObjectMessage, SceneMessage, Shape)
 
 BALL, BOX = Shape("sphere", (0.1,)), Shape("box", (1.0, 2.0, 3.0))
 

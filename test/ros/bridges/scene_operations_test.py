@@ -6,10 +6,11 @@ import math
 import unittest
 
 from plain_scene import FRAME, LINKS, NONE, UNIT, PlainScene, RandomDiffs, are_equal, frames, inverted, matrix, times
-from planning_scene_state import (
-    ADD as ADD_OBJECT, AllowedContacts, AttachedMessage, ObjectMessage, PlanningSceneState, SceneMessage, Shape)
+from planning_scene_state import PlanningSceneState
+from planning_scene_values import (
+    ADD as ADD_OBJECT, AllowedContacts, AttachedMessage, ObjectMessage, SceneMessage, Shape)
 from scene_operations import (
-    ADD, ALLOW_CONTACT, ATTACH, DETACH, DISALLOW_CONTACT, MOVE, REMOVE, SET_MARGIN, Names, NodeScene, plan, plane_mesh,
+    ADD, ALLOW_CONTACT, ATTACH, DETACH, MOVE, REMOVE, SET_MARGIN, Names, NodeScene, plan, plane_mesh,
     wanted_bodies, wanted_contacts, wanted_margins)
 
 BALL, BOX = Shape("sphere", (0.1,)), Shape("box", (1.0, 2.0, 3.0))

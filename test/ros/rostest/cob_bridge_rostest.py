@@ -12,8 +12,10 @@ import rospy
 import rostest
 from concave_distance.msg import SceneOperation
 from concave_distance.srv import ApplyScene
+from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import TransformStamped
 from shape_msgs.msg import SolidPrimitive
+from std_msgs.msg import String
 from tf2_msgs.msg import TFMessage
 
 HERE = os.path.dirname(os.path.realpath(__file__))
@@ -81,13 +83,20 @@ class CobBridge(unittest.TestCase):
         cls.transforms = Transforms()
         made = genpy.dynamic.generate_dynamic(DISTANCES, FIELDS)[DISTANCES]
         assert made._md5sum == MD5, made._md5sum
-        cls.arm, cls.places = [], []
+        cls.arm, cls.places, cls.status = [], [], {}
+        rospy.Subscriber("/diagnostics", DiagnosticArray, cls.keep_status, queue_size=100)
         rospy.Subscriber("/arm/obstacle_distance", made, cls.arm.append)
         rospy.Subscriber("/places/obstacle_distance", made, cls.places.append)
         cls.apply = rospy.ServiceProxy("/concave_distance/apply_scene", ApplyScene)
         cls.register = rospy.ServiceProxy("/arm/obstacle_distance/registerLinkOfInterest", registration_class())
         cls.register.wait_for_service(60.0)
         cls.apply.wait_for_service(60.0)
+
+    @classmethod
+    def keep_status(cls, message):
+        for one in message.status:
+            if one.name == "arm/cob_bridge":
+                cls.status = {item.key: item.value for item in one.values}
 
     def change(self, *operations):
         answer = self.apply(operations=operations)
@@ -201,6 +210,15 @@ class CobBridge(unittest.TestCase):
         item.operation = kind.REMOVE
         publisher.publish(item)
         self.wait_for(self.arm, lambda found: ("tip", "crate 1") not in found, "the crate stays")
+
+        publisher.unregister()
+        time.sleep(0.5)
+        publisher = rospy.Publisher("/arm/obstacle_distance/registerObstacle", String, queue_size=1, latch=True)
+        publisher.publish("no obstacle")
+        end = time.monotonic() + 60.0
+        while "std_msgs/String" not in self.status.get("registerObstacle", "") and time.monotonic() < end:
+            time.sleep(0.1)
+        self.assertIn("it is a std_msgs/String, not a moveit_msgs/CollisionObject", self.status.get("registerObstacle"))
 
     def test_8_without_an_obstacle_a_message_says_so(self):
         for name in ("ball", "near", "far", "posts"):

@@ -309,6 +309,10 @@ class MoveItBridge(unittest.TestCase):
         self.assertEqual(octomaps[0]._connection_header["type"], "octomap_msgs/Octomap")
         octomap = self.fake.classes["octomap_msgs/Octomap"]().deserialize(octomaps[0]._buff)
         self.assertEqual((octomap.header.frame_id, octomap.id, list(octomap.data)), ("map", "OcTree", [1, 2, 3]))
+        scene = self.fake.diff()
+        self.fake.octomap.origin.position.x, scene.world.octomap = 1.0, self.fake.octomap
+        self.fake.publish(scene)
+        self.expect_problem("octomap", "its origin is not that of its frame 'map'")
         self.assertEqual([name[:13] for name in self.bodies()], ["moveit/box_1_"])
         self.fake.objects = {"far": self.ball("far")}
         self.fake.put(*self.fake.objects.values())
