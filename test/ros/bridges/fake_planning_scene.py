@@ -165,17 +165,17 @@ def main():
     held = scene.object("cup", [(solid("CYLINDER", 0.1, 0.03), pose(0.0, 0.0, 0.12))], frame=link)
     down = scene.object("cup", [(solid("CYLINDER", 0.1, 0.03), pose(0.6, 0.2, 0.18))])
     rate, step = rospy.Rate(2.0), 0
-    while not rospy.is_shutdown():
-        scene.put(scene.object("ball", [(solid("SPHERE", 0.05), pose(0.7, 0.2 * ((step % 8) - 4) / 4.0, 0.3))]))
-        if step % 40 == 10:
-            scene.attach(link, held, [link])
-        elif step % 40 == 30:
-            scene.detach(down)
-        step += 1
-        try:
+    try:
+        while not rospy.is_shutdown():
+            scene.put(scene.object("ball", [(solid("SPHERE", 0.05), pose(0.7, 0.2 * ((step % 8) - 4) / 4.0, 0.3))]))
+            if step % 40 == 10:
+                scene.attach(link, held, [link])
+            elif step % 40 == 30:
+                scene.detach(down)
+            step += 1
             rate.sleep()
-        except rospy.ROSInterruptException:
-            break
+    except rospy.ROSException:
+        pass  # Ended by a signal.
     return 0
 
 

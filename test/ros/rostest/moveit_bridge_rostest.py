@@ -63,7 +63,7 @@ class Transforms(threading.Thread):
                 self._publisher.publish(message)
             except rospy.ROSException:
                 return  # The test has ended.
-            time.sleep(0.02)
+            time.sleep(0.05)
 
 
 class MoveItBridge(unittest.TestCase):
@@ -104,7 +104,7 @@ class MoveItBridge(unittest.TestCase):
                     return
             except rospy.ServiceException:
                 pass  # The node is being started.
-            time.sleep(0.05)
+            time.sleep(0.1)
         self.fail("%s; bodies: %s; status: %s" % (what, sorted(self.bodies()), self.status))
 
     def bodies(self):
