@@ -159,7 +159,8 @@ TEST_P(BridgeLaunchFile, WaitsForWhatIsNotThereAndSaysSo) {
   LaunchedFile launched({std::string(GetParam()) + ".launch"});
   const auto says = [](const diagnostic_msgs::DiagnosticArray& message) {
     const auto& entry = message.status.at(0);
-    return entry.name.find(GetParam()) != std::string::npos && entry.level == entry.WARN &&
+    return entry.name.find(GetParam()) != std::string::npos &&
+           entry.level == diagnostic_msgs::DiagnosticStatus::WARN &&
            std::any_of(entry.values.begin(), entry.values.end(),
                        [](const auto& value) { return value.value.find("waiting") != std::string::npos; });
   };
