@@ -6,6 +6,7 @@ of another type, in words.
 
 import functools
 import hashlib
+import re
 import struct
 
 import genmsg
@@ -22,8 +23,9 @@ def classes_from(type_name, definition, md5sum=None):
 
     Raises WrongDefinition where the text cannot be read or is not that of the md5sum that comes with it.
     """
+    checked = _without_comments(type_name, definition)
     try:
-        classes = _generated(type_name, definition)
+        classes = _generated(type_name, checked)
     except Exception as problem:  # The generator lets errors of several modules through.
         raise WrongDefinition("the definition of %s cannot be read: %s" % (type_name, problem))
     made = classes[type_name]._md5sum
@@ -31,6 +33,29 @@ def classes_from(type_name, definition, md5sum=None):
         raise WrongDefinition("the definition of %s has md5sum %s, but its connection says %s; rebuild the publisher" % (
             type_name, made, md5sum))
     return classes
+
+
+_LARGEST_TEXT = 1000000  # characters
+_NAME = r"[A-Za-z][A-Za-z0-9_]*"
+_LINES = re.compile(r"|".join((
+    r"={80}", r"MSG: NAME/NAME", r"NAME(/NAME)?(\[[0-9]*\])?\s+NAME",
+    r"NAME\s+NAME\s*=\s*([-+]?[0-9][0-9A-Fa-fxXeE.+-]*|True|False)")).replace("NAME", _NAME))
+
+
+def _without_comments(type_name, definition):
+    """The lines of a definition that count. The generator writes names and constants into Python code as they are, so
+    that a publisher could have any code run: lines that are nothing but a field, a number, a type or a rule pass."""
+    if len(definition) > _LARGEST_TEXT:
+        raise WrongDefinition("the definition of %s has %d characters (at most %d are read)" % (
+            type_name, len(definition), _LARGEST_TEXT))
+    kept = []
+    for number, line in enumerate(definition.split("\n"), 1):
+        line = line.split("#")[0].strip()
+        if line and not _LINES.fullmatch(line):
+            raise WrongDefinition("line %d of the definition of %s is '%.100s', which is neither a field nor a constant "
+                                  "that is a number" % (number, type_name, line))
+        kept += [line] if line else []
+    return "\n".join(kept) + "\n"
 
 
 @functools.lru_cache(maxsize=8)

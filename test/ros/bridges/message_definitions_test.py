@@ -44,9 +44,17 @@ class Definitions(unittest.TestCase):
         self.assertEqual(service._request_class().deserialize(buffer.getvalue()).components, 989)
 
     def test_texts_that_are_no_definition(self):
-        self.assertWrong("no such line at all", "cannot be read")
+        self.assertWrong("no such line at all", "line 1", "no such line at all")
         self.assertWrong("moveit_msgs/Unknown a\n", "cannot be read")
         self.assertWrong(definition(), MD5_WITH_POSE, "0123", md5="0123")
+
+    def test_no_text_of_a_definition_becomes_code(self):
+        for line in ("string made.append(1);A=1", "bool A=made.append(1)", "int32 made.append(1)", "string A='+made+'",
+                     "int32[made.append(1)] a", "int32 a\\", 'int32 """', "=" * 80 + "\nMSG: a/b(object): made.append(1) #"):
+            self.assertWrong("bool is_diff\n" + line + "\nint32 b\n", "neither a field nor a constant")
+        self.assertWrong("int32 a\n" * 200000, "1600000 characters")
+        comments = definition().replace("bool is_diff\n", 'bool is_diff  # """ quotes\n# \\\n\n   \n')
+        self.assertEqual(classes_from(PLANNING_SCENE, comments)[PLANNING_SCENE]._md5sum, MD5_WITH_POSE)
 
     def test_every_field_that_is_missing_is_named_with_what_follows(self):
         consequences = {field: text for _, field, _, text in WANTED}
