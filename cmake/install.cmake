@@ -53,7 +53,7 @@ if(CONCAVE_DISTANCE_WITH_ROS)
   catkin_install_python(PROGRAMS scripts/move_crowd.py scripts/pick_parts.py scripts/show_distances.py
     scripts/view_robot.py src/ros/bridges/cob_bridge.py src/ros/bridges/moveit_bridge.py
     DESTINATION ${CONCAVE_DISTANCE_BIN_DESTINATION})
-  # Modules of the bridges, which look for them beside themselves.
+  # Modules of the bridges, which look for them beside themselves; in no component, as the programs.
   install(FILES
     src/ros/bridges/bridge_problems.py
     src/ros/bridges/cob_messages.py
@@ -69,5 +69,5 @@ if(CONCAVE_DISTANCE_WITH_ROS)
     src/ros/bridges/registered_obstacles.py
     src/ros/bridges/rigid_transforms.py
     src/ros/bridges/scene_operations.py
-    DESTINATION ${CONCAVE_DISTANCE_BIN_DESTINATION} COMPONENT node)
+    DESTINATION ${CONCAVE_DISTANCE_BIN_DESTINATION})
 endif()
