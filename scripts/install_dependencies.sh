@@ -31,6 +31,7 @@ set -euo pipefail
     python3-yaml  # digests of experiments in the test `results`
     python3-rosmaster python3-rospy python3-tf2-msgs python3-rosgraph-msgs python3-dynamic-reconfigure  # scripts/faults.sh
     python3-sensor-msgs  # pick_parts.py
+    python3-diagnostic-msgs python3-geometry-msgs python3-shape-msgs python3-std-msgs python3-tf2-ros  # the bridges
   )
   debian_demo=(
     python3-roslaunch python3-rospy python3-rosservice python3-rostopic rosbash rviz ros-robot-state-publisher
@@ -57,7 +58,10 @@ set -euo pipefail
     ros-noetic-tf2-eigen ros-noetic-tf2-ros ros-noetic-trajectory-msgs ros-noetic-visualization-msgs
   )
   noetic_build=("${noetic_node[@]}" libcgal-dev libalglib-dev libfcl-dev)
-  noetic_test=(git locales python3-yaml libgtest-dev libfcl-dev libboost-dev libbenchmark-dev ros-noetic-rostest ros-noetic-rosmaster ros-noetic-rospy ros-noetic-tf2-msgs)
+  noetic_test=(
+    git locales python3-yaml libgtest-dev libfcl-dev libboost-dev libbenchmark-dev ros-noetic-rostest ros-noetic-rosmaster ros-noetic-rospy ros-noetic-tf2-msgs
+    ros-noetic-diagnostic-msgs ros-noetic-tf2-ros
+  )
   noetic_demo=(
     ros-noetic-roslaunch ros-noetic-rospy ros-noetic-rosservice ros-noetic-rostopic ros-noetic-rosbash ros-noetic-rviz
     ros-noetic-robot-state-publisher ros-noetic-tf2-msgs
