@@ -19,6 +19,7 @@ set(CONCAVE_DISTANCE_ROS_PACKAGES
   tf2_eigen
   tf2_ros
   topic_tools
+  trajectory_msgs
   visualization_msgs)
 
 set(CONCAVE_DISTANCE_ROS_FOUND OFF)

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -27,6 +28,26 @@ struct SceneTrackerOptions {
   /// Makes what niches need of the bodies in the background, from setScene() on; until a pair has it, its
   /// cycles at level `certified` give the distance alone. false: the first cycle with niches makes it.
   bool prepares_in_background = false;
+};
+
+/// Says how SceneTracker::prepare() works.
+struct PreparationSettings {
+  std::uint32_t threads = 0;  ///< that make parts of the bodies; 0: one per core
+  /// Seconds; what has been begun by then is finished, some 0.1 s for a body of 10,000 triangles.
+  double time_limit = std::numeric_limits<double>::infinity();
+  /// Called after each piece of work, by one thread at a time; empty: nobody.
+  std::function<void(std::size_t done, std::size_t count)> progress;
+};
+
+/// Counts what SceneTracker::prepare() has made and left.
+struct PreparationCounts {
+  std::size_t bodies = 0;        ///< meshes that it looked at
+  std::size_t made = 0;          ///< of these the ones of which something was missing
+  std::size_t left = 0;          ///< of these the ones that there was no time for
+  std::size_t lists_left = 0;    ///< pairs whose niches there was no time for
+  std::size_t memory_bytes = 0;  ///< by which the meshes have grown
+
+  bool is_complete() const { return left == 0 && lists_left == 0; }
 };
 
 /// The end of a cycle without one.
@@ -57,6 +78,20 @@ class SceneTracker {
   /// Returns for each listed pair of a scene its place in pairs() if setScene() would let it go on. @throws
   /// Error as setScene()
   std::vector<std::optional<std::size_t>> placesNow(const Scene& scene) const;
+
+  /// Before a loop in real time: an update() near these poses then takes what a warm one takes. Makes what
+  /// niches need of the bodies of pairs(), and of all that rules watch, where it is missing, so that after an
+  /// edit of the scene it makes that of new bodies: normal cones (0.5 kB a triangle), grids and metrics of
+  /// the search (SceneLoadOptions::metric_memory_limit bounds the largest part). Then solves each pair at
+  /// these poses, cold and moved to and fro by a millionth of its size, so that buffers grow and niches have
+  /// their ids; a pair whose last answer is of these poses is left as it is. pairs() has the answers.
+  /// Warnings are compared from the next update() on. What contact needs, or a pair that is far away, is
+  /// made when it comes to that: call it for such poses too, with the first ones of the loop last.
+  /// @param time of these poses, seconds, before that of the next update() @param demand of cycles to come
+  /// @throws Error as update()
+  PreparationCounts prepare(const std::vector<std::optional<Eigen::Isometry3d>>& world_from_body, double time,
+                            const PairDemand& demand = {true, true, true, false},
+                            const PreparationSettings& settings = {});
 
   /// One cycle. @param poses of the scene's bodies, in their order
   /// @param end as below. A warm cycle in which no pair comes near or leaves allocates nothing.
@@ -103,12 +138,17 @@ class SceneTracker {
  private:
   void begin();
   void refreshPairs();
+  void takePoses(const std::vector<std::optional<Eigen::Isometry3d>>& world_from_body, double time);
+  void findNear(const BodyPoses& poses);
   template <typename Demand, typename LocatePair>
-  CycleCounts runCycle(std::size_t count, const Demand& demand_of, const LocatePair& locate,
-                       WorkLimit::Clock::time_point end);
+  CycleCounts runCycle(CycleSolver& solver, std::size_t count, const Demand& demand_of,
+                       const LocatePair& locate, WorkLimit::Clock::time_point end,
+                       bool watches_warnings = true);
   PairInput locate(const BodyPoses& poses, const ScenePair& pair) const;
-  bool isPrepared(TrackedPair& pair);
-  void prepareAhead(const Scene& scene);
+  bool prepareBodies(const PairDemand& demand, const PreparationSettings& settings,
+                     WorkLimit::Clock::time_point end, PreparationCounts& counts);
+  void runPreparingCycles(const PairDemand& demand, const PreparationSettings& settings,
+                          WorkLimit::Clock::time_point end, PreparationCounts& counts);
   void count(std::size_t pairs, CycleCounts& counts) const;
 
   SceneTrackerOptions options_;

@@ -18,6 +18,7 @@
 #include "description_watch.h"
 #include "node_parameters.h"
 #include "ros/clouds/cloud_receiver.h"
+#include "ros/services/clearance_service.h"
 #include "ros/services/distance_queries.h"
 #include "ros/services/move_receiver.h"
 #include "ros/services/operation_services.h"
@@ -84,6 +85,7 @@ class DistanceServer {
   RestartRequests restarts_;
   ServiceQueues service_queues_;
   DistanceQueries queries_;
+  ClearanceService clearances_;
   SceneServices scene_services_;
   OperationServices operation_services_;
   DescriptionWatch descriptions_;

@@ -124,6 +124,13 @@ ParameterTable<N> ofTheCycle() {
           "slots of `constraints`: where there are more rows, the farthest have none")
           .from(1.0)
           .to(100000.0),
+      number<N>(
+          "constraint_tilt", [](auto& n) -> auto& { return n.constraints.settings.tilt; },
+          "edges and faces tilted by less have a row in `constraints` for each of their corners, as if they "
+          "were parallel")
+          .inUnit("rad")
+          .above(0.0)
+          .to(0.5),
       flag<N>(
           "track_constraints", [](auto& n) -> auto& { return n.constraints.always; },
           "follow rows without subscribers too, so that they have their slots before a controller starts"),
@@ -243,6 +250,18 @@ ParameterTable<L> ofRequests() {
       count<L>(
           "largest_query_count", [](auto& l) -> auto& { return l.largest_query_count; },
           "queries in one call of `get_distances`")
+          .from(1.0)
+          .to(1e6),
+      number<L>(
+          "clearance_seconds", [](auto& l) -> auto& { return l.clearance_seconds; },
+          "time for one call of `get_clearance`; what is not proven by then has the status "
+          "`BUDGET_EXHAUSTED`")
+          .inUnit("s")
+          .from(1e-3)
+          .to(3600.0),
+      count<L>(
+          "largest_waypoint_count", [](auto& l) -> auto& { return l.largest_waypoint_count; },
+          "waypoints of the motion in one call of `get_clearance`")
           .from(1.0)
           .to(1e6),
   };
