@@ -154,34 +154,7 @@ void ClearanceSearch::begin() {
     job.parts.push_back(
         gapBetween(paths_, pair, job.gap, sampleByBoxes(pair, 0.0, workspace), right, workspace));
   });
-  addStarts();
-  for (const Job& job : jobs_) {
-    for (const ClearanceGap& gap : job.parts) push(gap, gap.lower);
-  }
-}
-
-// Splits the gaps of the whole motion where the caller expects small distances.
-void ClearanceSearch::addStarts() {
-  ClearanceWorkspace& workspace = workspaces_.front();
-  for (const ClearanceStart& start : parameters_.starts) {
-    const double moment = paths_.momentOf(start.time);
-    for (Job& job : jobs_) {
-      const ClearancePair& pair = pairs_[job.gap];
-      if (std::minmax(pair.body_a, pair.body_b) != std::minmax(start.body_a, start.body_b)) continue;
-      const auto holder = std::find_if(job.parts.begin(), job.parts.end(), [&](const ClearanceGap& gap) {
-        return gap.left.moment < moment && moment < gap.right.moment;
-      });
-      if (holder == job.parts.end()) continue;
-      const ClearanceGap gap = *holder;
-      SampleRequest request;
-      request.aim = request.need = kInfinity;
-      request.tolerance = kSampleShare * parameters_.tolerance;
-      const ClearanceSample sample = sampleIn(paths_, pair, gap, moment, request, workspace, limit_);
-      take(sample, job.gap);
-      *holder = gapBetween(paths_, pair, job.gap, gap.left, sample, workspace);
-      job.parts.push_back(gapBetween(paths_, pair, job.gap, sample, gap.right, workspace));
-    }
-  }
+  for (const Job& job : jobs_) push(job.parts.front(), job.parts.front().lower);
 }
 
 // The least sample is exact to a share of the tolerance; now its distance becomes the pair's at its moment.

@@ -68,7 +68,6 @@ class ClearanceSearch {
   };
 
   void begin();
-  void addStarts();
   void sharpenLeast();
   void sampleExactly(std::size_t pair, double moment);
   template <typename Work>

@@ -401,14 +401,6 @@ TEST_F(Pendulum, ReportsItsProgress) {
   EXPECT_EQ(reports, 3);
 }
 
-TEST_F(Pendulum, LooksWhereItIsToldToFirst) {
-  hang(1.5);
-  parameters.starts = {{body("post"), body("bob"), 1.0 / 3.0}, {body("post"), body("bob"), 7.0}, {0, 0, 0.5}};
-  const ClearanceResult result = clearance(joint("swing", {-1.0, 2.0}));
-  EXPECT_NEAR(result.distance, 0.2, 1e-12);
-  requireBracket(result, 0.2);
-}
-
 // ---- a path of poses ----
 
 TEST_F(ClearanceTest, OfABallPastTheEdgeOfABoxIsThatOfTheFormula) {
