@@ -1,0 +1,24 @@
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+namespace concave_distance::python {
+
+// Each puts its part of the C++ library into the Python module: thin, without geometry. Arrays come in as
+// numpy has them and go out as structured arrays; the interpreter's lock is released while something is
+// solved.
+
+/// Translates Error to concave_distance.Error with `where`, `what` and `remedy`.
+void bindError(pybind11::module_& module);
+/// The enumerations of answers, as IntEnum, so that numpy compares them with columns of codes.
+void bindEnums(pybind11::module_& module);
+/// Answers and SceneAnswers.
+void bindAnswers(pybind11::module_& module);
+/// BodyMesh and what makes one.
+void bindBodies(pybind11::module_& module);
+/// PairTracker, solve_each, parameters. After bindBodies() and bindAnswers().
+void bindPairs(pybind11::module_& module);
+/// Scene, SceneTracker and what loads a scene. After bindAnswers().
+void bindScenes(pybind11::module_& module);
+
+}  // namespace concave_distance::python

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <pybind11/numpy.h>
+
+#include <Eigen/Geometry>
+#include <string>
+#include <vector>
+
+namespace concave_distance::python {
+
+using DoubleArray = pybind11::array_t<double, pybind11::array::c_style | pybind11::array::forcecast>;
+
+/// A pose as an array has it.
+struct GivenPose {
+  /// NaN where the numbers are no pose: a quaternion that is not a unit one, a matrix with another last row.
+  Eigen::Isometry3d pose;
+  bool is_missing = false;  ///< every number of it is NaN
+};
+
+/// Reads numbers. @throws Error naming the argument when it is no array of real numbers
+DoubleArray readNumbers(const pybind11::object& given, const std::string& where);
+
+/// Reads (4, 4) or (7), as one pose, (n, 4, 4) or (n, 7): homogeneous matrices or x, y, z, qx, qy, qz, qw,
+/// metres.
+/// @throws Error naming the argument and its shape
+std::vector<GivenPose> readPoses(const pybind11::object& given, const std::string& where);
+
+/// Writes a pose as 16 numbers, row by row.
+void writeMatrix(const Eigen::Isometry3d& pose, double* numbers);
+
+}  // namespace concave_distance::python
