@@ -22,6 +22,7 @@ set -euo pipefail
   debian_build=(
     "${debian_node[@]}"
     libcgal-dev libalglib-dev libfcl-dev  # convex partition, constraint trees (CONCAVE_DISTANCE_WITH_CGAL)
+    pybind11-dev python3-dev python3-numpy  # the Python package (CONCAVE_DISTANCE_WITH_PYTHON)
   )
   debian_test=(
     libgtest-dev librapidcheck-dev libfcl-dev libboost-dev libbenchmark-dev
@@ -55,7 +56,7 @@ set -euo pipefail
     ros-noetic-roscpp ros-noetic-rosgraph-msgs ros-noetic-roslib ros-noetic-sensor-msgs ros-noetic-shape-msgs ros-noetic-std-msgs ros-noetic-std-srvs ros-noetic-tf2
     ros-noetic-tf2-eigen ros-noetic-tf2-ros ros-noetic-visualization-msgs
   )
-  noetic_build=("${noetic_node[@]}" libcgal-dev libalglib-dev libfcl-dev)
+  noetic_build=("${noetic_node[@]}" libcgal-dev libalglib-dev libfcl-dev pybind11-dev python3-dev python3-numpy)
   noetic_test=(git locales python3-yaml libgtest-dev libfcl-dev libboost-dev libbenchmark-dev ros-noetic-rostest ros-noetic-rosmaster ros-noetic-rospy ros-noetic-tf2-msgs)
   noetic_demo=(
     ros-noetic-roslaunch ros-noetic-rospy ros-noetic-rosservice ros-noetic-rostopic ros-noetic-rosbash ros-noetic-rviz

@@ -1,0 +1,111 @@
+#!/usr/bin/env python3
+"""Scenes and robots in Python, beside closed forms."""
+import os
+import tempfile
+import unittest
+
+import concave_distance as cd
+import numpy as np
+
+SCENE = """
+bodies:
+  - {name: near, sphere: {radius: 0.3}}
+  - {name: far, sphere: {radius: 0.2}}
+pairs:
+  - {between: [near, far], name: spheres}
+"""
+
+# A ball on a slide along x above another on the base.
+ROBOT = """
+<robot name="slide">
+  <link name="base"><collision><geometry><sphere radius="0.1"/></geometry></collision></link>
+  <link name="carriage"><collision><geometry><sphere radius="0.01"/></geometry></collision></link>
+  <link name="ball"><collision><geometry><sphere radius="0.05"/></geometry></collision></link>
+  <joint name="slide" type="prismatic">
+    <parent link="base"/><child link="carriage"/><origin xyz="0 0 0.5"/><axis xyz="1 0 0"/>
+    <limit lower="-1" upper="1" effort="1" velocity="1"/>
+  </joint>
+  <joint name="rod" type="fixed"><parent link="carriage"/><child link="ball"/><origin xyz="0 0 0.2"/></joint>
+</robot>
+"""
+
+
+class Scenes(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+
+    def write(self, name, text):
+        path = os.path.join(self.folder.name, name)
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(text)
+        return path
+
+    def test_a_scene_file(self):
+        scene = cd.load_scene(self.write("scene.yaml", SCENE), cache="off", strict=True)
+        self.assertEqual(scene.body_names, ["near", "far"])
+        self.assertEqual(scene.problems, [])
+        tracker = cd.SceneTracker(scene, threads=1)
+        poses = np.array([[0.0, 0, 0, 0, 0, 0, 1], [2.0, 0, 0, 0, 0, 0, 1]])
+        for step in range(3):
+            poses[1, 0] = 2.0 - 0.1 * step
+            answers = tracker.update(poses, 0.5 * step)
+            self.assertEqual(answers.pairs, ["spheres"])
+            self.assertEqual(answers.states[0], cd.PairState.SOLVED)
+            self.assertAlmostEqual(answers.rows["distance"][0], 1.5 - 0.1 * step)
+            self.assertEqual(answers.niches_of(0)["id"].tolist(), [1])
+        self.assertAlmostEqual(answers.rows["closing_speed"][0], 0.2)
+        self.assertEqual(tracker.update(poses, 2.0, niches_wanted=False).niches.size, 0)
+        poses[0] = np.nan
+        answers = tracker.update(poses, 3.0)
+        self.assertEqual(answers.states[0], cd.PairState.NOT_LOCATED)
+        self.assertTrue(np.isnan(answers.rows["distance"][0]))
+
+    def test_a_cutoff_gives_a_bound(self):
+        scene = cd.load_scene(self.write("scene.yaml", SCENE), cache="off", cutoff=1.0)
+        answers = cd.SceneTracker(scene).update([[0.0, 0, 0, 0, 0, 0, 1], [5.0, 0, 0, 0, 0, 0, 1]])
+        self.assertEqual(answers.states[0], cd.PairState.BEYOND_CUTOFF)
+        self.assertGreater(answers.bounds[0], 1.0)
+        self.assertLessEqual(answers.bounds[0], 4.5)
+
+    def test_joint_positions(self):
+        robot = cd.load_robot(self.write("robot.urdf", ROBOT), cache="off", strict=True)
+        self.assertEqual(robot.position_names, ["slide"])
+        self.assertEqual(robot.rest_positions.tolist(), [0.0])
+        positions = np.linspace(-1.0, 1.0, 21)[:, None]
+        poses = robot.poses_of_bodies(positions)
+        self.assertEqual(poses.shape, (21, len(robot.body_names), 4, 4))
+        np.testing.assert_array_equal(robot.poses_of_bodies(positions[3]), poses[3])
+        ball = robot.body_names.index("ball")
+        np.testing.assert_allclose(poses[:, ball, :3, 3], np.c_[positions, 0 * positions, 0 * positions + 0.7])
+        tracker = cd.SceneTracker(robot)
+        for position, cycle in zip(positions[:, 0], poses):
+            answers = tracker.update(cycle)
+            self.assertEqual(answers.pairs, ["base/ball"])
+            self.assertAlmostEqual(answers.rows["distance"][0], np.hypot(position, 0.7) - 0.15)
+
+    def test_errors(self):
+        scene = cd.load_scene(self.write("scene.yaml", SCENE), cache="off")
+        robot = cd.load_robot(self.write("robot.urdf", ROBOT), cache="off")
+        wrong = self.write("wrong.yaml", SCENE.replace("radius: 0.3", "radios: 0.3"))
+        no_pose = np.tile([0.0, 0, 0, 0, 0, 0, 1], (2, 1))
+        no_pose[1, 6] = 3.0
+        for where, what, call in (
+                ("scene file", "nowhere.yaml", lambda: cd.load_scene("nowhere.yaml")),
+                ("nowhere.urdf", "cannot be read", lambda: cd.load_robot("nowhere.urdf")),
+                ("wrong.yaml", "'radius' is missing", lambda: cd.load_scene(wrong, strict=True)),
+                ("load_scene", "'margin_a'", lambda: cd.load_scene(wrong, margin_a=0.1)),
+                ("poses", "1 for 2", lambda: cd.SceneTracker(scene).update(np.eye(4))),
+                ("poses", "'far'", lambda: cd.SceneTracker(scene).update(no_pose)),
+                ("positions", "1 numbers", lambda: robot.poses_of_bodies(np.zeros((3, 2)))),
+                ("", "finite", lambda: robot.poses_of_bodies([np.nan]))):
+            with self.subTest(where=where, what=what):
+                with self.assertRaises(cd.Error) as caught:
+                    call()
+                self.assertIn(where, caught.exception.where)
+                self.assertIn(what, str(caught.exception))
+                self.assertTrue(caught.exception.remedy)
+
+
+if __name__ == "__main__":
+    unittest.main()
