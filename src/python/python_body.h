@@ -7,7 +7,7 @@
 
 namespace concave_distance::python {
 
-/// What Python has as BodyMesh.
+/// Python has this as BodyMesh.
 struct PythonBody {
   std::shared_ptr<const BodyMesh> mesh;
   RepairReport repair;

@@ -2,9 +2,11 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <fstream>
 #include <iterator>
+#include <limits>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -14,6 +16,7 @@
 #include <vector>
 
 #include "answers.h"
+#include "base/number_text.h"
 #include "bindings.h"
 #include "concave_distance/base/error.h"
 #include "concave_distance/base/not_computed.h"
@@ -136,20 +139,29 @@ class PythonSceneTracker {
         bodyPoses(readPoses(poses, "poses"));
     const py::gil_scoped_release unlocked;
     const std::lock_guard<std::mutex> turn(mutex_);
+    requireLater(time);
     PairDemand demand;
     demand.watched = demand.due = true;
     demand.niches = niches;
     tracker_.update(world_from_body, time, demand);
+    last_time_ = time;
     return SceneAnswers(tracker_.pairs());
   }
   void restart() {
     const py::gil_scoped_release unlocked;
     const std::lock_guard<std::mutex> turn(mutex_);
     tracker_.restart();
+    last_time_ = -std::numeric_limits<double>::infinity();
   }
   ScenePointer scene() const { return scene_; }
 
  private:
+  // The tracker takes poses of the same time for the same poses.
+  void requireLater(double time) const {
+    if (std::isfinite(time) && time > last_time_) return;
+    throw Error("time", "it is " + numberText(time, 17) + " after " + numberText(last_time_, 17),
+                "give ascending seconds, or call restart() first");
+  }
   std::vector<std::optional<Eigen::Isometry3d>> bodyPoses(const std::vector<GivenPose>& given) const {
     const auto& bodies = scene_->scene.bodies;
     if (given.size() != bodies.size())
@@ -171,6 +183,7 @@ class PythonSceneTracker {
   ScenePointer scene_;
   std::mutex mutex_;
   SceneTracker tracker_;
+  double last_time_ = -std::numeric_limits<double>::infinity();
 };
 
 constexpr const char* kLoadingDoc =
@@ -225,13 +238,13 @@ void bindScenes(py::module_& module) {
       "from any thread; calls wait for each other.")
       .def(py::init<ScenePointer, std::uint32_t>(), py::arg("scene"), py::arg("threads") = 0,
            "threads: that solve pairs; 0: one per core.")
-      .def("update", &PythonSceneTracker::update, py::arg("poses"), py::arg("time") = 0.0, py::kw_only(),
+      .def("update", &PythonSceneTracker::update, py::arg("poses"), py::arg("time"), py::kw_only(),
            py::arg("niches_wanted") = true,
            "One cycle.\n\n"
            "poses: of the bodies in the world, (b, 4, 4) or (b, 7) with x, y, z, qx, qy, qz, qw, metres; NaN "
            "where one "
            "is not known\n"
-           "time: seconds; later than before, for closing speeds\n"
+           "time: seconds, later than that of the last cycle\n"
            "Returns SceneAnswers with a row for each named pair and each pair that is near.")
       .def("restart", &PythonSceneTracker::restart, "Every pair starts cold in its next cycle.")
       .def_property_readonly("scene", &PythonSceneTracker::scene);

@@ -60,10 +60,17 @@ class Scenes(unittest.TestCase):
         answers = tracker.update(poses, 3.0)
         self.assertEqual(answers.states[0], cd.PairState.NOT_LOCATED)
         self.assertTrue(np.isnan(answers.rows["distance"][0]))
+        poses[0] = [0.5, 0, 0, 0, 0, 0, 1]
+        for time in (3.0, 1.0, np.nan):
+            with self.assertRaises(cd.Error) as caught:
+                tracker.update(poses, time)
+            self.assertEqual(caught.exception.where, "time")
+        tracker.restart()
+        self.assertAlmostEqual(tracker.update(poses, 1.0).rows["distance"][0], 0.8)
 
     def test_a_cutoff_gives_a_bound(self):
         scene = cd.load_scene(self.write("scene.yaml", SCENE), cache="off", cutoff=1.0)
-        answers = cd.SceneTracker(scene).update([[0.0, 0, 0, 0, 0, 0, 1], [5.0, 0, 0, 0, 0, 0, 1]])
+        answers = cd.SceneTracker(scene).update([[0.0, 0, 0, 0, 0, 0, 1], [5.0, 0, 0, 0, 0, 0, 1]], 0.0)
         self.assertEqual(answers.states[0], cd.PairState.BEYOND_CUTOFF)
         self.assertGreater(answers.bounds[0], 1.0)
         self.assertLessEqual(answers.bounds[0], 4.5)
@@ -79,8 +86,8 @@ class Scenes(unittest.TestCase):
         ball = robot.body_names.index("ball")
         np.testing.assert_allclose(poses[:, ball, :3, 3], np.c_[positions, 0 * positions, 0 * positions + 0.7])
         tracker = cd.SceneTracker(robot)
-        for position, cycle in zip(positions[:, 0], poses):
-            answers = tracker.update(cycle)
+        for step, (position, cycle) in enumerate(zip(positions[:, 0], poses)):
+            answers = tracker.update(cycle, step)
             self.assertEqual(answers.pairs, ["base/ball"])
             self.assertAlmostEqual(answers.rows["distance"][0], np.hypot(position, 0.7) - 0.15)
 
@@ -95,8 +102,8 @@ class Scenes(unittest.TestCase):
                 ("nowhere.urdf", "cannot be read", lambda: cd.load_robot("nowhere.urdf")),
                 ("wrong.yaml", "'radius' is missing", lambda: cd.load_scene(wrong, strict=True)),
                 ("load_scene", "'margin_a'", lambda: cd.load_scene(wrong, margin_a=0.1)),
-                ("poses", "1 for 2", lambda: cd.SceneTracker(scene).update(np.eye(4))),
-                ("poses", "'far'", lambda: cd.SceneTracker(scene).update(no_pose)),
+                ("poses", "1 for 2", lambda: cd.SceneTracker(scene).update(np.eye(4), 0.0)),
+                ("poses", "'far'", lambda: cd.SceneTracker(scene).update(no_pose, 0.0)),
                 ("positions", "1 numbers", lambda: robot.poses_of_bodies(np.zeros((3, 2)))),
                 ("", "finite", lambda: robot.poses_of_bodies([np.nan]))):
             with self.subTest(where=where, what=what):
