@@ -2,12 +2,14 @@
 set(CONCAVE_DISTANCE_MESSAGES
   Alert.msg
   BodyInfo.msg
+  BodyState.msg
   Constraint.msg
   Constraints.msg
   Contact.msg
   Contacts.msg
   DistanceQuery.msg
   Distances.msg
+  GroupInfo.msg
   Nearest.msg
   Niche.msg
   NicheChange.msg
@@ -19,6 +21,7 @@ set(CONCAVE_DISTANCE_MESSAGES
   PairNiches.msg
   PairStatus.msg
   Problem.msg
+  SceneFile.msg
   SceneMoves.msg
   SceneOperation.msg
   SimulationState.msg
@@ -29,9 +32,12 @@ set(CONCAVE_DISTANCE_SERVICES
   ApplyScene.srv
   GetDistance.srv
   GetDistances.srv
+  GetScene.srv
   ListBodies.srv
+  Reload.srv
   RemoveBody.srv
   ResetTracking.srv
+  SaveScene.srv
   SetEffects.srv
   SetPairEnabled.srv
   SetWarningDistance.srv

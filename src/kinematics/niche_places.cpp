@@ -11,8 +11,9 @@ namespace {
 /// Heights within this share of the smaller body are level: two faces of its size may be tilted by as many
 /// radians.
 constexpr double kLevelShare = 1e-4;
-/// What is level within that, but not within rounding, has corners where it is longer than this share: what
-/// is shorter moves a niche's points by so little, and small facets of a curved surface are always level.
+/// A place that is level within that, but not within rounding, has corners where it is longer than this
+/// share: a shorter one moves a niche's points by so little, and small facets of a curved surface are always
+/// level.
 constexpr double kLeastShare = 0.05;
 /// Triangle pairs that are looked at where the cycle has found a point, or a segment or patch.
 constexpr std::size_t kPairLimitOfPoints = 256;
@@ -21,6 +22,11 @@ constexpr std::size_t kPairLimitOfSets = 4096;
 constexpr double kSameDistance = 1e-12;
 
 NichePlace placeOf(const TrackedNiche& niche) {
+  const SignedPlace& in_overlap = niche.signed_place;
+  // Where the bare bodies overlap, the gradient of the depth acts at its pivot.
+  if (in_overlap.value <= 0.0)
+    return {in_overlap.pivot_in_a, in_overlap.pivot_in_a, in_overlap.gradient_in_a, niche.signed_distance,
+            false};
   NichePlace place{niche.point_a_in_a, niche.point_b_in_a, niche.normal_in_a, niche.signed_distance, false};
   if (std::isnan(place.value)) {
     place.value = 0.0;

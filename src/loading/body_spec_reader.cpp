@@ -1,19 +1,17 @@
 #include "body_spec_reader.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 
-#include "base/constants.h"
-#include "base/number_text.h"
+#include "base/ascii.h"
 #include "kinematics/frame_name.h"
-#include "mesh/surface/primitive_table.h"
 #include "scene/name_pattern.h"
 #include "settings_reader.h"
+#include "shape_reader.h"
 
 namespace concave_distance::detail {
 namespace {
-
-// A quaternion is normalised when its norm is this near to 1, else refused (as for distance_query).
 
 constexpr std::pair<const char*, GeometrySource> kGeometrySources[] = {
     {"collision", GeometrySource::Collision}, {"visual", GeometrySource::Visual}};
@@ -28,22 +26,6 @@ void readOneOf(YamlMap& map, const char* first, const char* second, std::string&
   if (required && !a && !b) map.value().fail("neither of " + both + " is given", "give one of them");
   if (a) into_first = a->text();
   if (b) into_second = b->text();
-}
-
-Eigen::Vector3d readScale(const YamlValue& value) {
-  const char* allowed = "a number or a list of three, not 0; negative ones mirror";
-  const auto accepts = [](double s) { return s != 0.0 && std::isfinite(s); };
-  if (value.isScalar()) return Eigen::Vector3d::Constant(value.number(allowed, accepts));
-  Eigen::Vector3d scale = value.vector3(allowed);
-  if ((scale.array() == 0.0).any()) value.refuse(allowed);
-  return scale;
-}
-
-Eigen::Quaterniond fromRollPitchYaw(const Eigen::Vector3d& rpy) {
-  // As in URDF: rotations about the fixed axes x, y, z in this order.
-  return Eigen::AngleAxisd(rpy.z(), Eigen::Vector3d::UnitZ()) *
-         Eigen::AngleAxisd(rpy.y(), Eigen::Vector3d::UnitY()) *
-         Eigen::AngleAxisd(rpy.x(), Eigen::Vector3d::UnitX());
 }
 
 Eigen::Vector4d readColour(const YamlValue& value) {
@@ -64,25 +46,6 @@ double readMargin(const YamlValue& value) {
                       [](double margin) { return margin >= 0.0 && std::isfinite(margin); });
 }
 
-void readPrimitive(const Primitive& primitive, const YamlValue& value, BodyDescription& body) {
-  YamlMap map(value, "a map of dimensions");
-  body.primitive = primitive.name;
-  for (const auto& [key, count] : primitive.sizes) {
-    const std::string quoted = std::string("give `") + key;
-    if (count == 1) {
-      body.dimensions.push_back(readLength(map.require(key, quoted + "`, metres")));
-      continue;
-    }
-    const YamlValue size = map.require(key, quoted + ": [x, y, z]`, metres");
-    const char* allowed = "three lengths greater than 0, metres";
-    for (const double length : size.numbers(count, allowed)) {
-      if (!(length > 0.0)) size.refuse(allowed);
-      body.dimensions.push_back(length);
-    }
-  }
-  map.finish();
-}
-
 /// Reads what robots and bodies may say each for itself, else `defaults` say.
 void readOverDefaults(YamlMap& map, const BodyDefaults& defaults, std::optional<double>& max_edge_length,
                       std::optional<double>& chord_error, Material& material) {
@@ -94,44 +57,72 @@ void readOverDefaults(YamlMap& map, const BodyDefaults& defaults, std::optional<
   if (auto v = map.take("material")) material = readMaterial(*v, defaults.materials);
 }
 
-void readGeometry(YamlMap& map, BodyDescription& body) {
-  std::optional<YamlValue> given = map.take("mesh");
-  if (given) body.mesh_resource = given->text();
-  const std::string remedy = "give one of mesh, " + primitiveNames();
-  for (const Primitive& primitive : primitives()) {
-    const std::optional<YamlValue> value = map.take(primitive.name);
-    if (!value) continue;
-    if (given) value->fail("a second geometry", remedy);
-    given = value;
-    readPrimitive(primitive, *value, body);
+std::vector<Selector> readSelectors(const YamlValue& value) {
+  std::vector<Selector> selectors;
+  for (const YamlValue& item : value.list("a list of bodies, groups and patterns")) {
+    selectors.push_back({item.where(), item.text()});
   }
-  if (!given) map.value().fail("no geometry", remedy);
+  return selectors;
+}
+
+AttachmentSpec readAttachment(const YamlValue& value) {
+  YamlMap map(value, "a map with `to` and touch_links");
+  AttachmentSpec attachment;
+  const YamlValue parent = map.require("to", "name the body, link or frame that it is attached to");
+  attachment.parent = {parent.where(), parent.text()};
+  if (auto v = map.take("touch_links")) attachment.may_touch = readSelectors(*v);
+  if (auto v = map.take("switched_off")) {
+    for (const YamlValue& pair : v->list("a list of names of pairs")) {
+      attachment.switched_off.push_back(pair.text());
+    }
+  }
+  map.finish();
+  return attachment;
+}
+
+AddedSpec readAdded(const YamlValue& value) {
+  YamlMap map(value, "a map with all_but or only");
+  AddedSpec added;
+  const std::optional<YamlValue> all_but = map.take("all_but");
+  const std::optional<YamlValue> only = map.take("only");
+  if (all_but.has_value() == only.has_value()) {
+    value.fail(all_but ? "both 'all_but' and 'only' are given" : "neither 'all_but' nor 'only' is given",
+               "give one of them");
+  }
+  added.all = all_but.has_value();
+  added.bodies = readSelectors(all_but ? *all_but : *only);
+  map.finish();
+  return added;
+}
+
+std::string readLabel(const YamlValue& value) {
+  std::string label = value.text();
+  requirePairName(value, label);
+  return label;
+}
+
+std::map<std::string, LinkSpec> readLinks(const YamlValue& value) {
+  std::map<std::string, LinkSpec> links;
+  const YamlMap names(value, "a map from a link's name to its margin and label");
+  for (const auto& [name, said] : names.entries()) {
+    YamlMap map(said, "a map with margin and label");
+    LinkSpec& link = links[name];
+    link.where = said.where();
+    if (auto v = map.take("margin")) link.margin = readMargin(*v);
+    if (auto v = map.take("label")) link.label = readLabel(*v);
+    map.finish();
+  }
+  return links;
 }
 
 }  // namespace
 
-Eigen::Isometry3d readPose(const YamlValue& value) {
-  YamlMap map(value, "a map with xyz and rpy or quaternion");
-  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-  if (auto v = map.take("xyz")) {
-    pose.translation() = v->vector3("three numbers, metres");
-    if (pose.translation().cwiseAbs().maxCoeff() > kLargestCoordinate) v->refuse("three numbers up to 1e18");
+void requirePairName(const YamlValue& value, const std::string& name) {
+  const auto allowed = [](char c) { return isLetterOrDigit(c) || c == '_' || c == '/'; };
+  if (!std::all_of(name.begin(), name.end(), allowed) || name.front() == '/' || name.back() == '/' ||
+      name.find("//") != std::string::npos) {
+    value.refuse("letters, digits, _ and single / in between");
   }
-  const std::optional<YamlValue> rpy = map.take("rpy");
-  const std::optional<YamlValue> quaternion = map.take("quaternion");
-  if (rpy && quaternion) quaternion->fail("both 'rpy' and 'quaternion' are given", "give one of them");
-  if (rpy) pose.linear() = fromRollPitchYaw(rpy->vector3("three angles, radians")).toRotationMatrix();
-  if (quaternion) {
-    const char* allowed = "four numbers x, y, z, w of norm 1";
-    const std::vector<double> q = quaternion->numbers(4, allowed);
-    const Eigen::Quaterniond rotation(q[3], q[0], q[1], q[2]);
-    if (!(std::abs(rotation.norm() - 1.0) <= kUnitTolerance)) {
-      quaternion->fail("the norm is " + numberText(rotation.norm()), std::string("allowed: ") + allowed);
-    }
-    pose.linear() = rotation.normalized().toRotationMatrix();
-  }
-  map.finish();
-  return pose;
 }
 
 void readBodyDefaults(YamlMap& map, BodyDefaults& defaults) {
@@ -160,9 +151,11 @@ RobotSpec readRobotSpec(const YamlValue& value, const BodyDefaults& defaults) {
   if (auto v = map.take("skip_links")) {
     for (const YamlValue& link : v->list("a list of links and patterns")) {
       robot.skipped_links.push_back({link.where(), link.text()});
+      robot.skip_links.push_back(link.text());
     }
   }
   if (auto v = map.take("margin")) robot.margin = readMargin(*v);
+  if (auto v = map.take("links")) robot.own = readLinks(*v);
   readOverDefaults(map, defaults, robot.max_edge_length, robot.chord_error, robot.material);
   map.finish();
   return robot;
@@ -182,12 +175,12 @@ BodySpec readBodySpec(const YamlValue& value, const BodyDefaults& defaults) {
   } else if (const std::string problem = tfFrameProblem(description.name); !problem.empty()) {
     name.fail("it cannot also be the name of its frame: " + problem, "give a 'frame' or another name");
   }
-  readGeometry(map, description);
-  if (auto v = map.take("scale")) {
-    if (description.mesh_resource.empty()) v->fail("a primitive has no scale", "give its dimensions instead");
-    description.scale = readScale(*v);
-  }
-  if (auto v = map.take("pose")) description.frame_from_geometry = readPose(*v);
+  readShapes(map, description);
+  if (auto v = map.take("placed")) body.frame_from_body = readPose(*v);
+  if (auto v = map.take("moved")) body.is_moved = v->boolean();
+  if (auto v = map.take("attached")) body.attached = readAttachment(*v);
+  if (auto v = map.take("added")) body.added = readAdded(*v);
+  if (auto v = map.take("label")) body.label = readLabel(*v);
   if (auto v = map.take("colour")) body.colour = readColour(*v);
   if (auto v = map.take("margin")) body.margin = readMargin(*v);
   readOverDefaults(map, defaults, description.max_edge_length, description.chord_error, body.material);

@@ -17,8 +17,8 @@ struct BodyDefaults {
   Material material;
 };
 
-/// A map of xyz and rpy or quaternion. @throws Error for what is wrong with it
-Eigen::Isometry3d readPose(const YamlValue& value);
+/// Checks a name, or a part of one, that may be part of a topic's name. @throws Error naming the value
+void requirePairName(const YamlValue& value, const std::string& name);
 
 /// Takes the keys about bodies from `defaults`; the caller calls finish().
 void readBodyDefaults(YamlMap& map, BodyDefaults& defaults);

@@ -26,7 +26,8 @@ void forEachBody(std::vector<BuiltBody>& built, LoadProgress* progress, const St
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, built.size(), 1),
                     [&](const tbb::blocked_range<std::size_t>& range) {
                       for (std::size_t i = range.begin(); i != range.end(); ++i) {
-                        if (progress != nullptr && progress->stop) built[i].problem = "loading was stopped";
+                        if (progress != nullptr && progress->isStopped())
+                          built[i].problem = "loading was stopped";
                         try {
                           if (built[i].problem.empty()) step(i);
                         } catch (const std::exception& exception) {

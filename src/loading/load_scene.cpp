@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <set>
 #include <system_error>
 #include <utility>
 
+#include "attach_bodies.h"
 #include "base/number_text.h"
 #include "build_bodies.h"
 #include "concave_distance/base/error.h"
@@ -112,6 +114,7 @@ void addRobot(const RobotSpec& spec, const std::string& base_folder, const Scene
     return;
   }
   detail::addRobot(spec, robot, urdf, parts);
+  parts.named_robots.back().base_folder = base_folder;
   addSemantics(spec, robot, base_folder, options, parts);
 }
 
@@ -195,6 +198,22 @@ void noteOpenBodies(Scene& scene) {
   }
 }
 
+// A group of the file that has the name of a robot's takes its place.
+std::set<std::string> groupsOfRobots(const std::map<std::string, std::vector<std::string>>& groups,
+                                     const SceneSpec& spec) {
+  std::set<std::string> names;
+  for (const auto& group : groups) names.insert(group.first);
+  for (const detail::GroupSpec& group : spec.groups) names.erase(group.name);
+  return names;
+}
+
+// Without meshes, which may be gone from the scene long before it is loaded again.
+void keepAsLoaded(Scene& scene) {
+  auto loaded = std::make_shared<Scene>(scene);
+  for (std::size_t i = 0; i < loaded->bodies.size(); ++i) loaded->bodies.edit(i).mesh = nullptr;
+  scene.loaded = std::move(loaded);
+}
+
 void requireNoProblem(const Scene& scene) {
   if (scene.problems.empty()) return;
   const SceneProblem& first = scene.problems.front();
@@ -213,7 +232,7 @@ Scene assemble(const SceneSpec& spec, SceneParts parts, const SceneLoadOptions& 
   detail::limitImports(parts, options.mesh_import);
   Scene scene;
   scene.rigid = parts.rigid;
-  scene.pool = std::make_shared<BodyPool>(spec.metric_memory_limit);
+  scene.pool = options.pool ? options.pool : std::make_shared<BodyPool>(spec.metric_memory_limit);
   scene.limits = options.limits;
   std::vector<BuiltBody> built =
       detail::buildBodies(parts.sources, {options.package_locator, options.mesh_search_path, scene.pool,
@@ -223,6 +242,8 @@ Scene assemble(const SceneSpec& spec, SceneParts parts, const SceneLoadOptions& 
   scene.defaults = spec.defaults;
   scene.groups = std::move(selection.groups);
   scene.robots = parts.robots;
+  scene.groups_of_robots = groupsOfRobots(scene.groups, spec);
+  scene.named_robots = std::make_shared<const std::vector<SceneRobot>>(std::move(parts.named_robots));
   scene.notes = std::move(parts.notes);
   scene.warnings = std::move(parts.warnings);
   scene.problems = std::move(parts.problems);
@@ -236,6 +257,8 @@ Scene assemble(const SceneSpec& spec, SceneParts parts, const SceneLoadOptions& 
       body_of_source[i] = scene.bodies.size();
       built[i].body->label = outline.bodies[i].label;
       built[i].body->pair_class = outline.bodies[i].pair_class;
+      if (const auto added = selection.added.find(built[i].body->name); added != selection.added.end())
+        built[i].body->added_rule = added->second;
       scene.bodies.push_back(std::move(*built[i].body));
     } else {
       scene.problems.push_back({parts.sources[i].source, "body '" + parts.sources[i].name +
@@ -248,6 +271,7 @@ Scene assemble(const SceneSpec& spec, SceneParts parts, const SceneLoadOptions& 
     const std::optional<std::size_t> b = body_of_source[pair.body_b];
     if (a && b) scene.pairs.push_back({pair.name, *a, *b, pair.enabled, pair.settings});
   }
+  detail::attachBodies(spec.bodies, scene);
   noteOpenBodies(scene);
   scene.notes.insert(scene.notes.end(), selection.notes.begin(), selection.notes.end());
   if (spec.cache) {
@@ -266,9 +290,16 @@ Scene loadSceneText(const std::string& yaml, const std::string& where, const std
   SceneParts parts;
   for (const RobotSpec& robot : spec.robots) addRobot(robot, base_folder, options, parts);
   for (const detail::BodySpec& body : spec.bodies) detail::addBody(body, base_folder, parts);
+  std::vector<std::pair<std::string, std::string>> joined_by_tf;
+  for (const std::vector<std::string>& frames : spec.rigid_frames) {
+    for (std::size_t i = 1; i < frames.size(); ++i) joined_by_tf.emplace_back(frames[0], frames[i]);
+  }
+  for (const auto& [a, b] : joined_by_tf) parts.rigid.join(a, b);
   Scene scene = assemble(spec, parts, options);
+  scene.joined_by_tf = std::move(joined_by_tf);
   detail::limitManyPairs(scene);
   if (options.strict) requireNoProblem(scene);
+  keepAsLoaded(scene);
   return scene;
 }
 
@@ -301,7 +332,7 @@ Scene loadRobotScene(const std::string& urdf, const std::string& where, const Sc
   std::error_code ignored;
   const bool is_file = std::filesystem::is_regular_file(where, ignored);
   // A text that comes from no file is what the parameter robot_description holds, and rviz draws it.
-  if (!is_file) robot.description = where;
+  (is_file ? robot.urdf : robot.description) = where;
   SceneParts parts;
   const DescriptionText text{urdf, where, is_file ? folderOf(where) : std::string()};
   const RobotDescription description = detail::readRobotDescription(text.text, text.where, robot.geometry);
@@ -309,6 +340,8 @@ Scene loadRobotScene(const std::string& urdf, const std::string& where, const Sc
   if (options.descriptions.count(kSemanticDescription) != 0) {
     robot.semantic_description = kSemanticDescription;
     addSemantics(robot, description, "", options, parts);
+    if (!is_file)
+      parts.named_robots.back().semantic_description = where + "_semantic";  // as requests name it
   }
   Scene scene = assemble(spec, parts, options);
   if (options.automatic_cutoff) detail::setAutomaticCutoff(scene);
@@ -316,6 +349,7 @@ Scene loadRobotScene(const std::string& urdf, const std::string& where, const Sc
   detail::warnOfNoGeometry(scene, description, options.geometry);
   detail::reportOverlappingPairs(scene, options);
   if (options.strict) requireNoProblem(scene);
+  keepAsLoaded(scene);
   return scene;
 }
 

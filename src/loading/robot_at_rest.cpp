@@ -24,7 +24,6 @@ constexpr std::size_t kRandomPoses = 20;
 constexpr double kHalfTurn = 3.141592653589793;  // rad
 constexpr std::uint64_t kSeed = 1;
 constexpr std::size_t kMostNamed = 8;
-constexpr std::size_t kFewPairs = 1000;      // all of which may be solved at any distance
 constexpr std::size_t kMostTried = 100'000;  // pairs: those of a robot of 450 links
 constexpr double kEnoughToBeApart = 0.9;     // of the distance: the proof ends with a bound above 0
 
@@ -89,7 +88,7 @@ double diagonalAt(const Scene& scene, const Poses& poses) {
   return box.isEmpty() ? 0.0 : box.diagonal().norm();
 }
 
-// Of the largest robot in its zero pose; 0 without one.
+// The scene's largest robot counts, in its zero pose; without one the diagonal is 0.
 double largestDiagonal(const Scene& scene) {
   double diagonal = 0.0;
   for (const auto& robot : scene.robots) {
@@ -114,7 +113,7 @@ std::vector<std::size_t> pairsThatAlwaysOverlap(const Scene& scene, const PairLi
   }
   RandomEngine engine(kSeed);
   for (std::size_t pose = 0; pose <= kRandomPoses && !left.empty(); ++pose) {
-    if (progress != nullptr && progress->stop) return {};
+    if (progress != nullptr && progress->isStopped()) return {};
     const Poses poses = posesOf(robot, pose == 0 ? robot.restPositions() : randomPositions(robot, engine));
     std::vector<char> overlaps(left.size(), 0);
     tbb::parallel_for(std::size_t{0}, left.size(), [&](std::size_t i) {
@@ -229,6 +228,7 @@ void reportOverlappingPairs(Scene& scene, const SceneLoadOptions& options) {
     const SceneBody& a = scene.bodies[all[pair].body_a];
     const SceneBody& b = scene.bodies[all[pair].body_b];
     filtered.emplace_back(std::minmax(a.serial, b.serial));
+    scene.overlapping.push_back(filtered.back());
   }
   std::sort(filtered.begin(), filtered.end());
   scene.rules.filtered = std::make_shared<const decltype(filtered)>(std::move(filtered));

@@ -1,14 +1,19 @@
 #pragma once
 
+#include <cstddef>
+
 #include "concave_distance/loading/load_scene.h"
 #include "concave_distance/scene/scene.h"
 #include "robot_description.h"
 
 namespace concave_distance::detail {
 
+/// All of so many pairs may be solved at any distance; scenes of more need a cutoff.
+inline constexpr std::size_t kFewPairs = 1000;
+
 // Checks of a robot's scene from the URDF alone, before anything moves it.
 
-/// Gives the pairs by rule that have no cutoff one, where there are more than 1000 of them: a fifth of the
+/// Gives the pairs by rule that have no cutoff one, where there are more than kFewPairs: a fifth of the
 /// diagonal of the largest body, or of the largest robot in its zero pose; adds a note. Listed pairs keep
 /// none.
 void limitManyPairs(Scene& scene);

@@ -42,7 +42,8 @@ std::set<std::string> skippedLinks(const RobotSpec& spec, const RobotDescription
   return skipped;
 }
 
-BodySource linkSource(const RobotSpec& spec, const RobotLink& link, const DescriptionText& urdf) {
+BodySource linkSource(const RobotSpec& spec, const RobotLink& link, const DescriptionText& urdf,
+                      const SceneParts& parts) {
   BodySource source;
   source.name = bodyName(spec, link.name);
   source.frame = source.name;
@@ -54,6 +55,14 @@ BodySource linkSource(const RobotSpec& spec, const RobotLink& link, const Descri
   if (link.colour) source.colour = *link.colour;
   source.material = spec.material;
   source.margin = spec.margin;
+  if (const auto own = spec.own.find(link.name); own != spec.own.end()) {
+    source.margin = own->second.margin.value_or(spec.margin);
+    source.label = own->second.label;
+  }
+  BodyOrigin origin;
+  origin.link = link.name;
+  origin.robot = parts.named_robots.size();
+  source.origin = std::make_shared<const BodyOrigin>(std::move(origin));
   source.in_robot_model = !spec.description.empty();
   source.is_robot_link = true;
   source.inertia = link.inertia;
@@ -65,6 +74,7 @@ void addLinks(const RobotSpec& spec, const RobotDescription& robot, const Descri
               SceneParts& parts) {
   const std::set<std::string> skipped = skippedLinks(spec, robot);
   std::vector<std::string> members;
+  std::vector<std::string> served;
   std::size_t bare = 0;
   for (const RobotLink& link : robot.links) {
     if (skipped.count(link.name) != 0) continue;
@@ -73,13 +83,21 @@ void addLinks(const RobotSpec& spec, const RobotDescription& robot, const Descri
       ++bare;
       continue;
     }
-    addSource(linkSource(spec, link, urdf), spec.where, "give one of the robots a prefix, or skip the link",
-              parts);
+    addSource(linkSource(spec, link, urdf, parts), spec.where,
+              "give one of the robots a prefix, or skip the link", parts);
     members.push_back(bodyName(spec, link.name));
+    served.push_back(link.name);
+  }
+  for (const auto& [link, own] : spec.own) {
+    if (std::find(served.begin(), served.end(), link) != served.end()) continue;
+    throw Error(own.where, "'" + link + "' is no link of robot '" + robot.name + "' that becomes a body",
+                "name a link with geometry as the URDF does");
   }
   parts.notes.push_back(urdf.where + ": " + counted(members.size(), "link") + " with geometry, " +
                         std::to_string(bare) + " without, " + std::to_string(skipped.size()) + " skipped");
   parts.groups.emplace_back(spec.name.empty() ? spec.prefix + robot.name : spec.name, std::move(members));
+  parts.named_robots.push_back(spec);
+  parts.named_robots.back().links = std::move(served);
 }
 
 // A robot whose joints make no sense is served all the same: tf says where its links are.
@@ -147,6 +165,9 @@ void addBody(const BodySpec& spec, const std::string& base_folder, SceneParts& p
   source.colour = spec.colour;
   source.margin = spec.margin;
   source.material = spec.material;
+  source.label = spec.label;
+  source.frame_from_body = spec.frame_from_body;
+  if (spec.is_moved) source.carrier = source.serial;
   addSource(std::move(source), spec.where, "give it another name", parts);
 }
 
@@ -179,6 +200,13 @@ BodySource sourceOf(const BodyDescription& description, const std::string& base_
   for (std::size_t i = 0; i < others.size(); ++i) add(others[i], ", shape " + std::to_string(i + 2));
   source.base_folder = base_folder;
   source.max_edge_length = description.max_edge_length;
+  BodyOrigin origin;
+  origin.shapes.push_back(description);
+  origin.shapes.insert(origin.shapes.end(), others.begin(), others.end());
+  origin.base_folder = base_folder;
+  origin.max_edge_length = description.max_edge_length;
+  origin.chord_error = description.chord_error;
+  source.origin = std::make_shared<const BodyOrigin>(std::move(origin));
   return source;
 }
 

@@ -4,9 +4,9 @@
 #include <filesystem>
 #include <map>
 
-#include "base/ascii.h"
 #include "body_spec_reader.h"
 #include "concave_distance/base/error.h"
+#include "kinematics/frame_name.h"
 #include "scene/name_pattern.h"
 #include "settings_reader.h"
 #include "simulation_reader.h"
@@ -16,6 +16,7 @@ namespace {
 
 constexpr std::uint64_t kBytesPerMegabyte = 1'000'000;
 constexpr std::uint64_t kMostMegabytes = 1'000'000;
+constexpr std::pair<const char*, bool> kSides[] = {{"earlier", false}, {"later", true}};
 
 // Names that must not stand twice, with the place where each stood first.
 class Names {
@@ -42,26 +43,48 @@ std::array<Selector, 2> readTwoSelectors(const YamlValue& value) {
   return {readSelector(sides[0]), readSelector(sides[1])};
 }
 
-bool isPairName(const std::string& name) {
-  const auto allowed = [](char c) { return isLetterOrDigit(c) || c == '_' || c == '/'; };
-  return std::all_of(name.begin(), name.end(), allowed) && name.front() != '/' && name.back() != '/' &&
-         name.find("//") == std::string::npos;
+SideSpec readSide(const YamlValue& value) {
+  if (!value.isList()) return {{readSelector(value)}, false};
+  SideSpec side{{}, true};
+  for (const YamlValue& name : value.list("a list of bodies, groups and patterns")) {
+    side.names.push_back(readSelector(name));
+  }
+  if (side.names.empty()) value.refuse("a list of at least one body, group or pattern");
+  return side;
 }
 
 // Everything of a pair's entry: what the reader of the whole file needs, and the settings.
-struct PairEntry {
-  std::array<Selector, 2> between;
-  std::string name;
+struct PairEntry : PairSpec {
   std::optional<bool> enabled;
 };
+
+// The two sides, and what `earlier` and `later` bring with them.
+void readSides(YamlMap& map, PairEntry& entry) {
+  const std::optional<YamlValue> earlier = map.take("earlier");
+  const std::optional<YamlValue> between = map.take("between");
+  if (between && earlier) earlier->fail("'between' is given, too", "give one of them");
+  if (between) {
+    const char* allowed = "a list of two: each a body, a group, a pattern or a list of these";
+    const std::vector<YamlValue> sides = between->list(allowed);
+    if (sides.size() != 2) between->refuse(allowed);
+    entry.between = {readSide(sides[0]), readSide(sides[1])};
+  } else if (earlier) {
+    entry.is_ordered = true;
+    entry.between = {readSide(*earlier), readSide(map.require("later", "give the other side of 'earlier'"))};
+    if (auto v = map.take("body_a")) entry.later_is_a = v->choice(kSides);
+  } else {
+    map.require("between", "give `between: [<one side>, <other side>]`");
+  }
+}
 
 PairEntry readEntry(const YamlValue& value, PairSettings& settings) {
   YamlMap map(value, "a map with `between` and settings");
   PairEntry entry;
-  entry.between = readTwoSelectors(map.require("between", "give `between: [<one side>, <other side>]`"));
+  readSides(map, entry);
+  if (auto v = map.take("watched")) entry.is_watched = v->boolean();
   if (auto v = map.take("name")) {
     entry.name = v->text();
-    if (!isPairName(entry.name)) v->refuse("letters, digits, _ and single / in between");
+    requirePairName(*v, entry.name);
   }
   if (auto v = map.take("enabled")) entry.enabled = v->boolean();
   readPairSettings(map, settings);
@@ -73,9 +96,10 @@ std::vector<PairSpec> readPairs(const YamlValue& value, const PairSettings& defa
   std::vector<PairSpec> pairs;
   for (const YamlValue& item : value.list("a list of pairs")) {
     PairSettings settings = defaults;
-    const PairEntry entry = readEntry(item, settings);
+    PairEntry entry = readEntry(item, settings);
     if (!entry.name.empty()) names.add(entry.name, "pair", item.where());
-    pairs.push_back({entry.between, entry.name, item});
+    entry.entry = item;
+    pairs.push_back(std::move(entry));
   }
   return pairs;
 }
@@ -94,6 +118,17 @@ std::vector<GroupSpec> readGroups(const YamlValue& value, Names& names) {
     groups.push_back(std::move(group));
   }
   return groups;
+}
+
+std::vector<std::vector<std::string>> readRigidFrames(const YamlValue& value) {
+  std::vector<std::vector<std::string>> sets;
+  for (const YamlValue& item : value.list("a list of lists of frames")) {
+    std::vector<std::string>& frames = sets.emplace_back();
+    for (const YamlValue& frame : item.list("a list of frames that do not move against each other")) {
+      frames.push_back(requireFrameName(frame.text(), frame.where()));
+    }
+  }
+  return sets;
 }
 
 // A folder, relative to that of the scene file, or off.
@@ -147,6 +182,7 @@ SceneSpec readSceneSpec(const std::string& yaml, const std::string& file, const 
     }
   }
   if (auto v = map.take("groups")) spec.groups = readGroups(*v, body_names);
+  if (auto v = map.take("rigid_frames")) spec.rigid_frames = readRigidFrames(*v);
   Names pair_names;
   if (auto v = map.take("pairs")) spec.pairs = readPairs(*v, spec.defaults.pairs, pair_names);
   if (auto v = map.take("disable")) {

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstddef>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -21,20 +22,30 @@ struct Selector {
   std::string text;
 };
 
-struct RobotSpec {
+/// Holds what a file says of one link of a robot.
+struct LinkSpec {
   std::string where;
-  std::string name;                  ///< of its group; empty: `<prefix><name in the URDF>`
-  std::string description;           ///< parameter with the URDF, or empty and
-  std::string urdf;                  ///< ... the file
-  std::string semantic_description;  ///< parameter with the SRDF, or
-  std::string srdf;                  ///< ... the file, or neither
-  std::string prefix;                ///< put before link names, in bodies and frames
-  GeometrySource geometry = GeometrySource::Collision;
+  std::optional<double> margin;  ///< metres; empty: the robot's
+  std::string label;             ///< empty: from its name
+};
+
+struct RobotSpec : SceneRobot {
+  std::string where;
   std::vector<Selector> skipped_links;
-  double margin = 0.0;  ///< metres, of each link
-  std::optional<double> max_edge_length;
-  std::optional<double> chord_error;
-  Material material;
+  std::map<std::string, LinkSpec> own;  ///< by the link's name in the URDF
+};
+
+/// Says what a body is attached to, as a file has it.
+struct AttachmentSpec {
+  Selector parent;
+  std::vector<Selector> may_touch;
+  std::vector<std::string> switched_off;  ///< as Attachment::switched_off
+};
+
+/// Which of the bodies above it a body is watched against, as one that was added while the scene ran.
+struct AddedSpec {
+  bool all = false;  ///< every body but `bodies`; false: `bodies` alone
+  std::vector<Selector> bodies;
 };
 
 struct BodySpec {
@@ -43,6 +54,11 @@ struct BodySpec {
   Eigen::Vector4d colour = SceneBody().colour;
   double margin = 0.0;  ///< metres
   Material material;
+  std::string label;                                                  ///< empty: from its name
+  Eigen::Isometry3d frame_from_body = Eigen::Isometry3d::Identity();  ///< besides the poses of its shapes
+  bool is_moved = false;                                              ///< as by an edit
+  std::optional<AttachmentSpec> attached;
+  std::optional<AddedSpec> added;
 };
 
 struct GroupSpec {
@@ -51,8 +67,17 @@ struct GroupSpec {
   std::vector<Selector> members;
 };
 
+/// One side of an entry: what it names, or all that a list names.
+struct SideSpec {
+  std::vector<Selector> names;
+  bool is_list = false;
+};
+
 struct PairSpec {
-  std::array<Selector, 2> between;
+  std::array<SideSpec, 2> between;
+  bool is_ordered = false;         ///< only pairs whose earlier body is on the first side
+  bool is_watched = true;          ///< false: it says how those pairs are watched that added bodies ask for
+  bool later_is_a = false;         ///< of an ordered one
   std::string name;                ///< empty: from the bodies
   std::optional<YamlValue> entry;  ///< for readPairEntry; nothing: all settings are the defaults
 };
@@ -63,6 +88,7 @@ struct SceneSpec {
   std::vector<GroupSpec> groups;
   std::optional<std::vector<PairSpec>> pairs;  ///< nothing: every body against every other
   std::vector<std::array<Selector, 2>> disabled;
+  std::vector<std::vector<std::string>> rigid_frames;  ///< sets of frames that static transforms join
   SceneDefaults defaults;
   std::size_t metric_memory_limit = 0;  ///< bytes
   std::optional<SimulationSettings> simulation;

@@ -19,21 +19,20 @@ namespace {
 
 using Side = std::vector<bool>;  // one entry each source
 
-// Usable in a topic's name: letters, digits and _.
-std::string topicPart(const std::string& body) {
-  std::string part = body;
-  for (char& c : part) {
-    if (!isLetterOrDigit(c)) c = '_';
-  }
-  return part;
-}
-
-// Each once: what is taken gets a number.
+// Each once: what is taken gets a number. @throws Error for two that are given and the same
 std::vector<std::string> labelsOf(const std::vector<BodySource>& sources) {
   std::set<std::string> taken;
+  for (const BodySource& source : sources) {
+    if (source.label.empty() || taken.insert(source.label).second) continue;
+    throw Error(source.source, "the label '" + source.label + "' is taken by another body", "give another");
+  }
   std::vector<std::string> labels;
   for (const BodySource& source : sources) {
-    const std::string wanted = topicPart(source.name);
+    if (!source.label.empty()) {
+      labels.push_back(source.label);
+      continue;
+    }
+    const std::string wanted = bodyLabel(source.name);
     std::string label = wanted;
     for (int copy = 2; !taken.insert(label).second; ++copy) label = wanted + "_" + std::to_string(copy);
     labels.push_back(std::move(label));
@@ -48,7 +47,13 @@ struct Sides {
   Side a;
   Side b;
 
+  bool isOrdered() const { return entry != nullptr && entry->is_ordered; }
+  bool isWatched() const { return entry == nullptr || entry->is_watched; }
   bool hold(std::size_t source_a, std::size_t source_b) const { return a[source_a] && b[source_b]; }
+  /// @param earlier the one of two sources that comes first
+  bool holdPair(std::size_t earlier, std::size_t later) const {
+    return hold(earlier, later) || (!isOrdered() && hold(later, earlier));
+  }
   bool holdEitherWay(std::size_t source_a, std::size_t source_b) const {
     return hold(source_a, source_b) || hold(source_b, source_a);
   }
@@ -79,6 +84,7 @@ class Selection {
     }
     for (const auto& sides : spec_.disabled) disable(sides);
     makeRules();
+    for (const BodySpec& body : spec_.bodies) addRuleOf(body);
     noteFilteredPairs(parts_, result_);
     for (const NamedPair& pair : named_) result_.pairs.push_back(settle(pair));
     for (const auto& [name, sources] : selector_.groups()) {
@@ -97,21 +103,24 @@ class Selection {
 
   void addEntry(const PairSpec& entry) {
     ++entries_;
-    const BodySelector::Selection a = selector_.select(entry.between[0]);
-    const BodySelector::Selection b = selector_.select(entry.between[1]);
-    const std::string& where = entry.between[0].where;
+    if (entry.between[0].is_list || entry.between[1].is_list) {
+      addListEntry(entry);
+      return;
+    }
+    const Selector& first = entry.between[0].names.front();
+    const Selector& second = entry.between[1].names.front();
+    const BodySelector::Selection a = selector_.select(first);
+    const BodySelector::Selection b = selector_.select(second);
+    const std::string& where = first.where;
     if (a.is_lost || b.is_lost) {
       result_.problems.push_back(
-          {where, "pairs of '" + entry.between[0].text + "' and '" + entry.between[1].text +
-                      "' are not served: '" + entry.between[a.is_lost ? 0 : 1].text +
+          {where, "pairs of '" + first.text + "' and '" + second.text + "' are not served: '" +
+                      (a.is_lost ? first : second).text +
                       "' is not known, perhaps it is of a robot that could not be read"});
       return;
     }
-    if (!(a.names_one && b.names_one)) {
-      if (!entry.name.empty()) {
-        throw Error(where, "the name '" + entry.name + "' for more than one pair",
-                    "name a pair in an entry that names both its bodies");
-      }
+    if (!(a.names_one && b.names_one) || entry.is_ordered) {
+      requireNoName(entry);
       const bool is_one_body = a.sources.size() == 1 && a.sources == b.sources;
       if (a.sources.empty() || b.sources.empty() || is_one_body) {
         result_.notes.push_back(where + ": gives no pair");
@@ -119,13 +128,12 @@ class Selection {
       general_.push_back({entries_, &entry, sideOf(a.sources), sideOf(b.sources)});
       return;
     }
-    if (entry.between[0].text == entry.between[1].text) {
-      throw Error(where, "'" + entry.between[0].text + "' against itself", "name two bodies");
+    if (first.text == second.text) {
+      throw Error(where, "'" + first.text + "' against itself", "name two bodies");
     }
     if (a.is_bare_link || b.is_bare_link) {
-      result_.problems.push_back({where, "pair of '" + entry.between[0].text + "' and '" +
-                                             entry.between[1].text + "' is not served: '" +
-                                             entry.between[a.is_bare_link ? 0 : 1].text +
+      result_.problems.push_back({where, "pair of '" + first.text + "' and '" + second.text +
+                                             "' is not served: '" + (a.is_bare_link ? first : second).text +
                                              "' is a link without geometry"});
       return;
     }
@@ -135,6 +143,41 @@ class Selection {
       result_.notes.push_back(where + ": named, so watched in spite of: " + reason);
     }
     namedPair(source_a, source_b).entries.push_back(&entry);
+  }
+
+  static void requireNoName(const PairSpec& entry) {
+    if (entry.name.empty()) return;
+    throw Error(entry.between[0].names.front().where, "the name '" + entry.name + "' for more than one pair",
+                "name a pair in an entry that names both its bodies");
+  }
+
+  std::vector<std::size_t> sourcesOf(const std::vector<Selector>& selectors) {
+    std::vector<std::size_t> sources;
+    for (const Selector& selector : selectors) {
+      const BodySelector::Selection found = selector_.select(selector);
+      sources.insert(sources.end(), found.sources.begin(), found.sources.end());
+      if (!found.is_lost) continue;
+      result_.problems.push_back({selector.where, "'" + selector.text +
+                                                      "' is not known, perhaps it is of a robot that could "
+                                                      "not be read; its pairs are not served"});
+    }
+    return sources;
+  }
+
+  void addListEntry(const PairSpec& entry) {
+    requireNoName(entry);
+    general_.push_back({entries_, &entry, sideOf(sourcesOf(entry.between[0].names)),
+                        sideOf(sourcesOf(entry.between[1].names))});
+  }
+
+  void addRuleOf(const BodySpec& body) {
+    if (!body.added) return;
+    AddedBodyRule rule;
+    rule.all = body.added->all;
+    for (const std::size_t source : sourcesOf(body.added->bodies)) {
+      rule.bodies.insert(parts_.sources[source].serial);
+    }
+    result_.added[body.description.name] = std::make_shared<const AddedBodyRule>(std::move(rule));
   }
 
   NamedPair* findNamed(std::size_t a, std::size_t b) {
@@ -154,8 +197,9 @@ class Selection {
   }
 
   bool isWatched(std::size_t a, std::size_t b) const {
-    return std::any_of(general_.begin(), general_.end(),
-                       [&](const Sides& sides) { return sides.holdEitherWay(a, b); });
+    return std::any_of(general_.begin(), general_.end(), [&](const Sides& sides) {
+      return sides.isWatched() && sides.holdPair(std::min(a, b), std::max(a, b));
+    });
   }
 
   void disable(const std::array<Selector, 2>& selectors) {
@@ -196,12 +240,11 @@ class Selection {
   Said saidOf(std::size_t earlier, std::size_t later) const {
     Said said;
     for (const Sides& sides : general_) {
-      const bool forwards = sides.hold(earlier, later);
-      const bool backwards = sides.hold(later, earlier);
-      if (!forwards && !backwards) continue;
-      if (!said.rule.is_watched) {
+      if (!sides.holdPair(earlier, later)) continue;
+      if (!said.rule.is_watched && sides.isWatched()) {
+        const bool earlier_is_a = sides.isOrdered() ? !sides.entry->later_is_a : sides.hold(earlier, later);
         said.rule.is_watched = true;
-        said.rule.order = forwards ? PairOrder::Earlier : PairOrder::Later;
+        said.rule.order = earlier_is_a ? PairOrder::Earlier : PairOrder::Later;
         said.number = sides.number;
       }
       if (sides.entry != nullptr && sides.entry->entry) said.entries.push_back(sides.entry);
@@ -256,7 +299,7 @@ class Selection {
         const Said said = saidOf(earlier, later);
         PairRule& rule = rules.of(row, column);
         rule = said.rule;
-        if (!rule.is_watched) continue;
+        if (!rule.is_watched && said.entries.empty()) continue;
         const auto [place, is_new] = made.try_emplace(said.entries);
         auto& [settings, enabled] = place->second;
         if (is_new) {
@@ -311,6 +354,14 @@ class Selection {
 };
 
 }  // namespace
+
+std::string bodyLabel(const std::string& body) {
+  std::string part = body;
+  for (char& c : part) {
+    if (!isLetterOrDigit(c)) c = '_';
+  }
+  return part;
+}
 
 PairSelection selectPairs(const SceneSpec& spec, const SceneParts& parts, std::size_t pair_limit) {
   return Selection(spec, parts, pair_limit).run();

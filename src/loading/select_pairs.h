@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -28,11 +29,15 @@ struct PairSelection {
   PairRules rules;                     ///< of all others, without PairRules::filtered
   std::vector<std::uint32_t> classes;  ///< of the sources
   std::vector<std::string> labels;     ///< of the sources, each usable in a topic's name and once only
-  std::vector<std::pair<std::size_t, std::size_t>> filtered;  ///< sources whose pair no rule gives
-  std::vector<SceneProblem> problems;                         ///< pairs asked for by name that cannot be
+  std::map<std::string, std::shared_ptr<const AddedBodyRule>> added;  ///< by body name
+  std::vector<std::pair<std::size_t, std::size_t>> filtered;          ///< sources whose pair no rule gives
+  std::vector<SceneProblem> problems;  ///< pairs asked for by name that cannot be
   std::vector<std::string> notes;
   std::map<std::string, std::vector<std::string>> groups;  ///< names of their sources
 };
+
+/// Returns what names of pairs call a body that nothing else is said of: its name, usable in a topic's name.
+std::string bodyLabel(const std::string& body);
 
 /// Applies the file's groups, pairs and disabled pairs, and the filters of the robots.
 /// @param pair_limit of named pairs

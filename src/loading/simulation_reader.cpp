@@ -7,11 +7,11 @@
 #include <utility>
 
 #include "base/parameter_checks.h"
-#include "body_spec_reader.h"
 #include "concave_distance/base/error.h"
 #include "parameter_map.h"
 #include "query_poses.h"
 #include "scene/simulation_parameters.h"
+#include "shape_reader.h"
 
 namespace concave_distance::detail {
 namespace {

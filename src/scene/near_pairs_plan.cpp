@@ -45,7 +45,10 @@ std::shared_ptr<const ScenePair> pairIn(const Scene& scene, std::size_t a, std::
   if (!settings_changed && is_shared && tracked.origin->body_a == a && tracked.origin->body_b == b) {
     return tracked.origin;
   }
-  return std::make_shared<const ScenePair>(*ruledPair(scene, a, b));
+  std::optional<ScenePair> pair = ruledPair(scene, a, b);
+  // In a scene with another order of bodies, the two may have changed sides.
+  if (!isSameBody(scene.bodies[pair->body_a], *tracked.body_a)) return nullptr;
+  return std::make_shared<const ScenePair>(std::move(*pair));
 }
 
 }  // namespace

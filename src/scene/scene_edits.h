@@ -21,7 +21,7 @@ void requireRoomForBody(const Scene& scene);
 /// the
 ///         body itself, or when the scene would exceed its limits
 AddedPairs addBody(Scene& scene, SceneBody body, const PairPartners& partners, const PairSettings& settings);
-/// The same without the names of its pairs.
+/// Appends it without the names of its pairs.
 AddedPairs appendBody(Scene& scene, SceneBody body, const PairPartners& partners,
                       const PairSettings& settings);
 
@@ -29,7 +29,7 @@ AddedPairs appendBody(Scene& scene, SceneBody body, const PairPartners& partners
 /// @return names of the pairs removed with it. @throws Error when there is no such body, or when another one
 ///         is attached to it
 std::vector<std::string> removeBody(Scene& scene, const std::string& name, bool allow_robot_link = false);
-/// The same without the names of its pairs.
+/// Appends it without the names of its pairs.
 void takeOutBody(Scene& scene, const std::string& name, bool allow_robot_link);
 
 /// Returns the names of the pairs of a body, 1000 at most of those by rule.

@@ -165,7 +165,7 @@ bool TrackedPair::needsSearch() const {
   return must_solve_ && ((demand.niches && !isSearchHeld()) || !provesDistance(settings.tracker.accuracy));
 }
 
-// What is made in the background is not made by a cycle.
+// A cycle does not make what the background makes.
 bool TrackedPair::isSearchHeld() const {
   return preparation && !preparation->isSearchDone();
 }

@@ -29,7 +29,11 @@ void padPlace(const TrackerParameters& parameters, bool overlaps, Place& place) 
 
 void padSolution(const TrackerParameters& parameters, PairSolution& solution) {
   const bool overlaps = solution.status == SolveStatus::Penetrating;
-  for (TrackedNiche& niche : solution.niches) padPlace(parameters, overlaps, niche);
+  for (TrackedNiche& niche : solution.niches) {
+    padPlace(parameters, overlaps, niche);
+    if (std::isnan(niche.signed_distance))
+      niche.signed_distance = niche.signed_place.value - parameters.margin();
+  }
   padPlace(parameters, overlaps, solution);
   if (!(parameters.margin() > 0.0)) return;
   if (solution.lower_bound > 0.0) {

@@ -159,6 +159,10 @@ void PairCycle::end(PairSolution& solution) {
   last_cycle_ = now_;
   if (wantsNiches()) last_niches_ = last_cycle_;
   last_distance_ = solution.distance;
+  if (stages_.parameters().signed_values && stages_.isExact()) {
+    signed_values_.update(stages_.frame(), {stages_.cycle().number, stages_.cycle().since_last.displacement},
+                          solution, limit_);
+  }
   padSolution(stages_.parameters(), solution);
   ++stages_.cycle().number;
 }
@@ -227,6 +231,7 @@ void PairCycle::reportCompleteness(PairSolution& solution) const {
 
 void PairCycle::reset() {
   stages_.reset();
+  signed_values_.clear();
   last_cycle_.known = last_niches_.known = false;
   was_cut_ = true;
 }
@@ -247,7 +252,8 @@ void PairCycle::setParameters(const TrackerParameters& parameters) {
 }
 
 std::size_t PairCycle::memoryBytes() const {
-  return sizeof(PairCycle) + stages_.memoryBytes() + carried_.capacity() * sizeof(NicheRecord);
+  return sizeof(PairCycle) + stages_.memoryBytes() + carried_.capacity() * sizeof(NicheRecord) +
+         signed_values_.memoryBytes();
 }
 
 }  // namespace concave_distance

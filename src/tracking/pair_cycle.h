@@ -9,6 +9,7 @@
 #include "concave_distance/tracking/pair_solution.h"
 #include "concave_distance/tracking/tracker_parameters.h"
 #include "pair_stages.h"
+#include "signed_values.h"
 
 namespace concave_distance {
 
@@ -68,6 +69,7 @@ class PairCycle {
   Moment last_cycle_;
   Moment last_niches_;  ///< the last cycle that wanted niches
   double last_distance_ = kNotComputed;
+  SignedValues signed_values_;
   WorkLimit limit_;  ///< of the present cycle
 };
 

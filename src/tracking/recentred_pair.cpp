@@ -45,6 +45,9 @@ void RecentredPair::moveBack(const Eigen::Isometry3d& a_from_b, PairSolution& so
     niche.point_b_in_a += origin_a_;
     niche.witness.point_a_in_a += origin_a_;
     niche.witness.point_b_in_a += origin_a_;
+    niche.signed_place.point_a_in_a += origin_a_;
+    niche.signed_place.point_b_in_a += origin_a_;
+    niche.signed_place.pivot_in_a += origin_a_;
   }
   const double pose_error =
       kProofError * kPoseShare * (origin_a_.norm() + origin_b_.norm() + a_from_b.translation().norm());

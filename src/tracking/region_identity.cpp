@@ -103,7 +103,8 @@ void RegionIdentity::takeIds(const std::vector<TrackedNiche>& niches, double dis
   keep_known(squared_distance_of);
   takeNearest(memory_.size(), niches.size(), [&](std::size_t r, std::size_t o) {
     // Regions are those of the bare bodies: where only margins overlap there is none.
-    const bool touches = !(niches[o].distance > 0.0) && !(niches[o].signed_distance < 0.0);
+    const bool has_depth = niches[o].signed_place.value <= 0.0;
+    const bool touches = !(niches[o].distance > 0.0) && (has_depth || !(niches[o].signed_distance < 0.0));
     const bool is_free = other_taken_[o] == 0 && niches[o].id != 0 && touches;
     return is_free ? squared_distance_of(r, o) : -1.0;
   });

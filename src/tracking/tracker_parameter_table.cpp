@@ -79,6 +79,10 @@ ParameterTable<T> expertParameters() {
       flag<T>(
           "keep_through_material", [](auto& t) -> auto& { return t.keep_through_material; },
           "report niches whose segment runs through material too, flagged"),
+      flag<T>(
+          "signed_values", [](auto& t) -> auto& { return t.signed_values; },
+          "give each niche a signed value through contact, with its gradient: the distance, or minus the "
+          "depth of the overlap"),
       number<T>(
           "inherited_per_niche", [](auto& t) -> auto& { return t.inherited_per_niche; },
           "trial points that a niche hands on to the next cycle")

@@ -48,7 +48,7 @@ constexpr double kAuditPeriod = 5.0;  // seconds
 constexpr int kRows = 10;
 constexpr PairDemand kNiches{true, true, true, false};
 
-/// What one tenth of the time has shown.
+/// Holds what one tenth of the time has shown.
 struct Row {
   std::array<std::uint64_t, kChangeKinds> changes{};
   std::vector<double> edit_ms;
@@ -171,7 +171,7 @@ class Churn {
     }
   }
 
-  // What the node does: the newest scene, then a cycle.
+  // The node does the same: it takes the newest scene, then runs a cycle.
   void cycle(Clock::time_point end) {
     follow();
     counts_ = tracker_.update(living_.posesOf(*followed_, time_), time_, kNiches, end);

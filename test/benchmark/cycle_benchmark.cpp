@@ -96,7 +96,7 @@ MovingScene ownRobot(const std::string& files) {
           }};
 }
 
-/// What the lists of one pair have been over the cycles.
+/// Counts how the lists of one pair were over the cycles.
 struct Waits {
   std::size_t lists = 0;
   std::size_t incomplete = 0;

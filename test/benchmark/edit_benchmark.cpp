@@ -1,5 +1,5 @@
-// What is known of a pair's niches soon after an edit has replaced the mesh of one body, when what was proven
-// of the old mesh is void: recall after 2, 5 and 20 ms of one thread, by what looks for them.
+// Measures how many of a pair's niches are known soon after an edit has replaced the mesh of one body, when
+// what was proven of the old mesh is void: recall after 2, 5 and 20 ms of one thread, by what looks for them.
 //
 //   edit_benchmark [--pairs name,name,...] [--times 2,5,20] [--instants 3] [--runs 3] [--output FILE]
 //
@@ -165,7 +165,7 @@ Witnesses byRandomStarts(const Instant& at, const Mesh& b, std::uint64_t seed, C
   return refined(at, b, workspace.basins.minima());
 }
 
-// What the niches of the old mesh are on the new one: each end at the closest point, then the minimum there.
+// Takes the niches of the old mesh to the new one: each end to the closest point, then the minimum there.
 Witnesses byInheritance(const Instant& at, const Mesh& b, Clock::time_point end) {
   RefinementWorkspace workspace;
   Witnesses found;

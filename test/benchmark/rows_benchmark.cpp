@@ -164,7 +164,7 @@ Run runCell(bool with_slots, int cycles, int sweeps, std::uint32_t capacity, dou
         has_changed = true;
         continue;
       }
-      // Of a niche that lives with as many rows, none is in another slot.
+      // A niche that lives with as many rows keeps all of its slots.
       if (found->second.size() == before.size() && found->second != before) ++run.moved_rows;
     }
     slots_of = std::move(now);

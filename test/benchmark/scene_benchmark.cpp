@@ -111,7 +111,7 @@ void runOwn(const ManyBodies& cell, std::uint32_t threads, int cycles, Row& row)
   options.prepares_in_background = true;
   SceneTracker niches(options);
   niches.setScene(cell.scene);
-  // What niches need is made in the background, at the pace of real cycles.
+  // The background makes what niches need, at the pace of real cycles.
   const Poses& first = poses.front();
   const auto begin = Clock::now();
   while (niches.update(first, 0.0, kNiches, instantIn(kBudget)).unprepared > 0) {

@@ -316,7 +316,7 @@ TEST(AttachedBody, IsWatchedAgainAtRestWhereThatWasAskedForByName) {
   EXPECT_TRUE(watches(scene, "peg", "table")) << "likewise, of a body that was carried along";
 }
 
-/// What is known of the bodies without the scene: where they are, and what moves them.
+/// Keeps, apart from the scene, where the bodies are and what moves them.
 class Model {
  public:
   struct Known {

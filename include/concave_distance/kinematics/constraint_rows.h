@@ -32,12 +32,12 @@ struct ConstraintRow {
   std::uint64_t niche_id = 0;               ///< several rows have one where the niche is a segment or patch
   std::uint64_t age = 0;                    ///< cycles since this row has its slot
   double value = kNotComputed;              ///< metres: signed distance of the place
-  bool is_overlapping = false;              ///< the bare bodies overlap there: value is 0, and in truth less
+  bool is_overlapping = false;              ///< without a signed value: value is 0, and in truth less
   double lower_bound = kNotComputed;        ///< metres, proven: no place of the pair is nearer
   Eigen::Vector3d normal = Eigen::Vector3d::Constant(kNotComputed);   ///< from A to B
   Eigen::Vector3d point_a = Eigen::Vector3d::Constant(kNotComputed);  ///< metres
   Eigen::Vector3d point_b = Eigen::Vector3d::Constant(kNotComputed);
-  /// The same in the frames of the bodies (SceneBody::frame): the links, for bodies on robots.
+  /// The points in the frames of the bodies (SceneBody::frame): the links, for bodies on robots.
   Eigen::Vector3d point_a_in_frame = Eigen::Vector3d::Constant(kNotComputed);
   Eigen::Vector3d point_b_in_frame = Eigen::Vector3d::Constant(kNotComputed);
   /// m/s, positive when approaching: the part of the closing speed that is of other bodies and of the roots

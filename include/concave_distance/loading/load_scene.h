@@ -18,8 +18,6 @@
 
 namespace concave_distance {
 
-enum class GeometrySource : std::uint8_t { Collision, Visual };
-
 inline constexpr std::size_t kDefaultMetricMemoryLimit = 512'000'000;
 
 /// Progress of loading a scene, read and stopped from another thread.
@@ -33,6 +31,8 @@ class LoadProgress {
 
   /// When set, bodies not begun are left out and the result is not usable.
   std::atomic<bool> stop{false};
+  const std::atomic<bool>* stopped_with = nullptr;  ///< the same, of somebody else; nullptr: nobody
+  bool isStopped() const { return stop || (stopped_with != nullptr && *stopped_with); }
 
  private:
   std::atomic<std::size_t> bodies_{0};
@@ -64,6 +64,8 @@ struct SceneLoadOptions {
   std::size_t metric_memory_limit = kDefaultMetricMemoryLimit;
   /// Prepared bodies are kept here between runs, unless the scene file says otherwise; nullptr: nowhere.
   PreparationCachePointer cache;
+  /// Meshes are shared with the scene of this pool where they are equal; nullptr: with none.
+  std::shared_ptr<BodyPool> pool;
   SceneLimits limits;
   MeshImportLimits mesh_import;  ///< of each mesh file
 };
@@ -88,16 +90,6 @@ std::vector<std::string> descriptionsOfSceneFile(const std::string& path);
 /// @throws Error when urdfdom cannot parse the text; with `strict` for the first problem
 [[nodiscard]] Scene loadRobotScene(const std::string& urdf, const std::string& where,
                                    const SceneLoadOptions& options);
-
-/// One shape of a body.
-struct BodyShape {
-  std::string mesh_resource;  ///< either this ...
-  Eigen::Vector3d scale = Eigen::Vector3d::Ones();
-  std::string primitive;           ///< ... or a primitive's name with its `dimensions`
-  std::vector<double> dimensions;  ///< metres, in the order of srv/AddBody.srv
-  Eigen::Isometry3d frame_from_geometry = Eigen::Isometry3d::Identity();
-  std::shared_ptr<const TriangleSoup> triangles;  ///< ... or these, metres
-};
 
 /// One body, as the scene file's `bodies` entries: of the shape that the inherited fields give, and more.
 struct BodyDescription : BodyShape {

@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <unordered_set>
 #include <utility>
@@ -22,6 +23,7 @@
 #include "concave_distance/scene/pair_rules.h"
 #include "concave_distance/scene/rigid_frames.h"
 #include "concave_distance/scene/scene_limits.h"
+#include "concave_distance/scene/scene_origin.h"
 #include "concave_distance/scene/simulation_settings.h"
 #include "concave_distance/tracking/tracker_parameters.h"
 
@@ -69,6 +71,7 @@ struct SceneBody {
   std::uint64_t serial = newBodySerial();
   std::uint32_t pair_class = 0;                     ///< row of Scene::rules
   std::shared_ptr<const AddedBodyRule> added_rule;  ///< nullptr: it came with the scene
+  std::shared_ptr<const BodyOrigin> origin;         ///< nullptr: not known, it cannot be saved
 
   const std::string& pairLabel() const { return label.empty() ? name : label; }
 };
@@ -152,6 +155,15 @@ struct Scene {
   SceneDefaults defaults;
   /// Names of bodies by group: of the scene file, robots and SRDFs. Not all of them need to be in `bodies`.
   std::map<std::string, std::vector<std::string>> groups;
+  std::set<std::string> groups_of_robots;  ///< those of `groups` that URDFs and SRDFs give
+  /// Its robots as the scene file names them; nullptr: none.
+  std::shared_ptr<const std::vector<SceneRobot>> named_robots;
+  /// Frames that edits found to be joined by static transforms, besides those of the robots.
+  std::vector<std::pair<std::string, std::string>> joined_by_tf;
+  /// Pairs of SceneBody::serial among PairRules::filtered that were left out because they always overlap.
+  std::vector<std::pair<std::uint64_t, std::uint64_t>> overlapping;
+  /// The scene as it was loaded, before all edits, its bodies without meshes; nullptr: it was not loaded.
+  std::shared_ptr<const Scene> loaded;
   std::optional<double> automatic_cutoff;        ///< m, if SceneLoadOptions requests one
   std::optional<SimulationSettings> simulation;  ///< the section `simulation`, where there is one
   PreparationCachePointer cache;                 ///< of its bodies, used for later ones too; nullptr: none

@@ -13,6 +13,7 @@
 #include "concave_distance/distance/niche_kind.h"
 #include "concave_distance/distance/witness.h"
 #include "concave_distance/search/trial_point.h"
+#include "concave_distance/tracking/signed_place.h"
 #include "concave_distance/tracking/stage_times.h"
 
 namespace concave_distance {
@@ -48,9 +49,12 @@ std::string_view toString(NicheOrigin origin);
 
 /// A local minimum of a pair's distance, followed over time.
 struct TrackedNiche {
-  std::uint64_t id = 0;                   ///< persistent while the niche lives, never used again afterwards
-  double distance = kNotComputed;         ///< metres
-  double signed_distance = kNotComputed;  ///< metres, as PairSolution::signed_distance
+  std::uint64_t id = 0;            ///< persistent while the niche lives, never used again afterwards
+  double distance = kNotComputed;  ///< metres
+  /// Metres, as PairSolution::signed_distance; where the bare bodies overlap that of signed_place, less the
+  /// margins.
+  double signed_distance = kNotComputed;
+  SignedPlace signed_place;  ///< where it was asked for (TrackerParameters::signed_values)
   Eigen::Vector3d point_a_in_a = Eigen::Vector3d::Constant(kNotComputed);
   Eigen::Vector3d point_b_in_a = Eigen::Vector3d::Constant(kNotComputed);
   /// Unit vector in A's frame from A's witness to B's; where they touch, A's pseudonormal.

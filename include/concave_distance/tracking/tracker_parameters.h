@@ -54,6 +54,8 @@ struct TrackerParameters {
   bool niches_wanted = true;           ///< false: only the distance is asked for
   bool hidden = false;                 ///< report niches whose segment meets a triangle too, flagged
   bool keep_through_material = false;  ///< report niches through material, flagged, instead of dropping them
+  /// Gives each niche listed its SignedPlace, at the exact levels. Costs nothing while the bodies are apart.
+  bool signed_values = false;
   std::uint64_t seed = 1;
 
   TrackerParameters();

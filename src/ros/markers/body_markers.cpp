@@ -135,7 +135,7 @@ std::optional<visualization_msgs::MarkerArray> movedBodyMarkers(const Scene& sho
     const SceneBody& before = shown.bodies[index];
     const SceneBody& body = now.bodies[index];
     if (&before == &body) continue;
-    if (before.mesh != body.mesh || before.colour != body.colour ||
+    if (before.name != body.name || before.mesh != body.mesh || before.colour != body.colour ||
         before.in_robot_model != body.in_robot_model) {
       return std::nullopt;
     }

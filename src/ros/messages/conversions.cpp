@@ -17,6 +17,12 @@ static_assert(Niche::OUTWARD == static_cast<int>(Outwardness::Outward));
 static_assert(Niche::THROUGH_MATERIAL == static_cast<int>(Outwardness::ThroughMaterial));
 static_assert(Niche::UNKNOWN == static_cast<int>(Outwardness::Unknown));
 static_assert(NicheChange::BIRTH == static_cast<int>(NicheEvent::Kind::Birth));
+static_assert(Niche::SIGNED_NOT_ASKED == static_cast<int>(SignedState::NotAsked));
+static_assert(Niche::SIGNED_KNOWN == static_cast<int>(SignedState::Known));
+static_assert(Niche::SIGNED_OPEN_SURFACE == static_cast<int>(SignedState::OpenSurface));
+static_assert(Niche::SIGNED_CROSSED_SHELLS == static_cast<int>(SignedState::CrossedShells));
+static_assert(Niche::SIGNED_NO_CLOSED_FORM == static_cast<int>(SignedState::NoClosedForm));
+static_assert(Niche::SIGNED_UNFINISHED == static_cast<int>(SignedState::Unfinished));
 static_assert(NicheChange::DEATH == static_cast<int>(NicheEvent::Kind::Death));
 static_assert(NicheChange::MERGE == static_cast<int>(NicheEvent::Kind::Merge));
 
@@ -40,6 +46,13 @@ Niche toNiche(const PairHeading& heading, const TrackedNiche& niche) {
   message.birth_cycle = niche.birth_cycle;
   message.has_signed_distance = !std::isnan(niche.signed_distance);
   message.signed_distance = niche.signed_distance;
+  const SignedPlace& place = niche.signed_place;
+  message.signed_state = static_cast<std::uint8_t>(place.state);
+  message.signed_point_a = toPoint(heading.reference_from_a * place.point_a_in_a);
+  message.signed_point_b = toPoint(heading.reference_from_a * place.point_b_in_a);
+  message.signed_pivot = toPoint(heading.reference_from_a * place.pivot_in_a);
+  message.signed_gradient = toVector(heading.reference_from_a.linear() * place.gradient_in_a);
+  message.signed_since_cycle = place.since_cycle;
   return message;
 }
 

@@ -1,6 +1,7 @@
 #include "distance_server.h"
 
 #include <ros/console.h>
+#include <tbb/task_arena.h>
 
 #include <optional>
 #include <thread>
@@ -17,6 +18,7 @@ namespace {
 
 constexpr double kLoadPeriod = 0.1;          // s, between two looks for the robot description
 constexpr double kHousekeepingPeriod = 0.2;  // s
+constexpr double kDescriptionPeriod = 2.0;   // s, between two looks for changed robot descriptions
 constexpr const char* kRemedies =
     "fewer pairs (an SRDF, the scene file's pairs, ~skip_overlapping_pairs), a shorter ~cutoff, a lower "
     "~rate, more ~threads, subscribers of distances instead of niches, ~relative_tolerance";
@@ -70,6 +72,11 @@ DistanceServer::DistanceServer(const ros::NodeHandle& node, const ros::NodeHandl
       scene_services_(service_queues_, keeper_, restarts_, parameters_.reference_frame),
       operation_services_(service_queues_, keeper_, transforms_, parameters_.reference_frame, rosPackagePath,
                           parameters_.mesh_access),
+      descriptions_(private_node_),
+      state_services_(service_queues_, keeper_, transforms_, parameters_.reference_frame,
+                      parameters_.save_folder,
+                      {[this](const std::shared_ptr<BodyPool>& pool) { return loadAgain(pool); },
+                       [this](const Scene& loaded) { onReloaded(loaded); }}),
       moves_(service_queues_, keeper_, transforms_, parameters_.reference_frame),
       runner_(transforms_, keeper_, publishers_, restarts_,
               {parameters_.reference_frame, parameters_.stale_after, parameters_.threads,
@@ -93,6 +100,8 @@ DistanceServer::DistanceServer(const ros::NodeHandle& node, const ros::NodeHandl
       [this](ConcaveDistanceConfig& config, std::uint32_t level) { onReconfigure(config, level); });
   forgetAutomaticCutoff();
   load_timer_ = startTimer(kLoadPeriod, "Loading the scene", &DistanceServer::tryToLoad);
+  description_timer_ = startTimer(kDescriptionPeriod, "Looking for changed descriptions",
+                                  &DistanceServer::reportChangedDescription);
   housekeeping_timer_ = startTimer(kHousekeepingPeriod, "Housekeeping", &DistanceServer::doHousekeeping);
 }
 
@@ -161,17 +170,41 @@ void DistanceServer::followLoading() {
     adoptCutoff(*outcome->scene->automatic_cutoff);
     config_of_loading_.cutoff = config_.cutoff;
   }
-  if (concernsPairs(config_of_loading_, config_)) {
-    for (std::size_t i = 0; i < outcome->scene->pairs.size(); ++i) {
-      applyChanges(config_of_loading_, config_, outcome->scene->pairs.edit(i).settings);
-    }
-    for (PairSettings& settings : outcome->scene->rules.settings) {
-      applyChanges(config_of_loading_, config_, settings);
-    }
-    applyChanges(config_of_loading_, config_, outcome->scene->defaults.pairs);
-  }
+  applyChanges(config_of_loading_, config_, *outcome->scene);
+  descriptions_.remember(loader_.request());
   keeper_.replace(std::move(*outcome->scene));
   keeper_.setWaitingFor("");
+}
+
+Scene DistanceServer::loadAgain(const std::shared_ptr<BodyPool>& pool) {
+  reload_request_ = requestScene(parameters_, private_node_);
+  if (!reload_request_.waiting_for.empty())
+    throw Error("reload", reload_request_.waiting_for, "set it and call again; nothing was changed");
+  LoadProgress progress;
+  progress.stopped_with = &service_queues_.gate().stopped();
+  std::optional<Scene> scene;
+  // On this thread alone: a worker that reads meshes would be missing in the cycle.
+  tbb::task_arena(1).execute([&] { scene = loadScene(parameters_, reload_request_, progress, pool); });
+  const boost::recursive_mutex::scoped_lock lock(reconfigure_mutex_);
+  applyChanges(config_of_loading_, config_, *scene);
+  return std::move(*scene);
+}
+
+void DistanceServer::onReloaded(const Scene& loaded) {
+  descriptions_.remember(reload_request_);
+  if (!loaded.automatic_cutoff || !cutoff_is_automatic_) return;
+  const boost::recursive_mutex::scoped_lock lock(reconfigure_mutex_);
+  adoptCutoff(*loaded.automatic_cutoff);
+  config_of_loading_.cutoff = config_.cutoff;
+}
+
+void DistanceServer::reportChangedDescription() {
+  const std::string news = descriptions_.findNews();
+  if (news.empty()) return;
+  ROS_WARN_STREAM(
+      "The parameter '" << news << "' has changed since the scene was loaded, and the distances are those "
+                        << "of the robot as it was: call the service " << private_node_.resolveName("reload")
+                        << " to take the new one.");
 }
 
 // The caller holds the mutex of the settings.
@@ -201,7 +234,7 @@ void DistanceServer::setUpDiagnostics() {
     describeEffects(window_, status);
   });
   updater_.add("scene", [this](diagnostic_updater::DiagnosticStatusWrapper& status) {
-    describeScene(*keeper_.served()->scene, keeper_.waitingFor(), status);
+    describeScene(*keeper_.served()->scene, keeper_.waitingFor(), descriptions_.changed(), status);
   });
   updater_.add("transforms", [this](diagnostic_updater::DiagnosticStatusWrapper& status) {
     describeTransforms(receiver_.take(), status);

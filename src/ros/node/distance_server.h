@@ -15,11 +15,13 @@
 #include "body_publisher.h"
 #include "concave_distance/base/error.h"
 #include "cycle_runner.h"
+#include "description_watch.h"
 #include "node_parameters.h"
 #include "ros/services/distance_queries.h"
 #include "ros/services/move_receiver.h"
 #include "ros/services/operation_services.h"
 #include "ros/services/scene_services.h"
+#include "ros/services/state_services.h"
 #include "ros/tf/transform_buffer.h"
 #include "ros/tf/transform_receiver.h"
 #include "ros/topics/scene_store.h"
@@ -61,6 +63,10 @@ class DistanceServer {
   void publishDiagnostics();
   void onReconfigure(ConcaveDistanceConfig& config, std::uint32_t level);
   void reportMissingFrames();
+  void reportChangedDescription();
+  /// Loads the scene again, for the service reload.
+  Scene loadAgain(const std::shared_ptr<BodyPool>& pool);
+  void onReloaded(const Scene& loaded);
   void reportMissingClock();
   void setUpDiagnostics();
   /// A wall timer; exceptions in its callback are logged and end there.
@@ -79,6 +85,9 @@ class DistanceServer {
   DistanceQueries queries_;
   SceneServices scene_services_;
   OperationServices operation_services_;
+  DescriptionWatch descriptions_;
+  SceneRequest reload_request_;  ///< of the reload that runs, or the last
+  StateServices state_services_;
   MoveReceiver moves_;
   CycleRunner runner_;
   diagnostic_updater::Updater updater_;
@@ -95,6 +104,7 @@ class DistanceServer {
   ros::WallTimer load_timer_;
   ros::WallTimer housekeeping_timer_;
   ros::WallTimer diagnostics_timer_;
+  ros::WallTimer description_timer_;
   ros::WallTime last_load_message_;
   ros::WallTime last_frame_message_;
   ros::WallTime last_clock_message_ = ros::WallTime::now();

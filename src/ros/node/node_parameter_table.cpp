@@ -56,6 +56,9 @@ ParameterTable<N> ofTheScene() {
           "absolute "
           "folders; `[]`: nowhere; unset: every package and the scene file's folder ([who may do "
           "what](security.md#mesh-files))"),
+      text<N>(
+          "save_folder", "a path, or `off`", [](auto& n) -> auto& { return n.save_folder; },
+          "folder below which `save_scene` may write; empty: that of the scene file"),
   };
 }
 

@@ -79,6 +79,13 @@ MeshRoots meshRoots(const NodeParameters& parameters) {
   return parseMeshRoots(entries, "~mesh_roots");
 }
 
+// The scene file's folder is the default; an empty name means that nothing may be saved.
+std::string saveFolder(const NodeParameters& parameters) {
+  if (parameters.save_folder == "off") return "";
+  if (!parameters.save_folder.empty() || parameters.scene_file.empty()) return parameters.save_folder;
+  return std::filesystem::absolute(parameters.scene_file).parent_path().string();
+}
+
 MeshImportLimits importLimits(const NodeLimits& limits) {
   MeshImportLimits import;
   import.memory = limits.import_memory_mb * std::size_t{1'000'000};
@@ -121,6 +128,7 @@ NodeParameters parseNodeParameters(XmlRpc::XmlRpcValue values, std::vector<std::
   ParameterReader limits = reader.group("limits");
   limits.read(limitParameters(), false, parameters.limits);
   reader.adoptUnread(limits, "limits/");
+  parameters.save_folder = saveFolder(parameters);
   parameters.mesh_access = {importLimits(parameters.limits), meshRoots(parameters)};
   unknown = reader.unread({});
   return parameters;

@@ -131,6 +131,15 @@ void applyChanges(const ConcaveDistanceConfig& before, const ConcaveDistanceConf
   });
 }
 
+void applyChanges(const ConcaveDistanceConfig& before, const ConcaveDistanceConfig& after, Scene& scene) {
+  if (!concernsPairs(before, after)) return;
+  for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
+    applyChanges(before, after, scene.pairs.edit(i).settings);
+  }
+  for (PairSettings& settings : scene.rules.settings) applyChanges(before, after, settings);
+  applyChanges(before, after, scene.defaults.pairs);
+}
+
 void applyRequest(const ConcaveDistanceConfig& before, const ConcaveDistanceConfig& after,
                   PairSettings& settings) {
   applyChanges(before, after, settings);

@@ -23,6 +23,8 @@ void checkConfig(const ConcaveDistanceConfig& config);
 /// a pair stays until somebody changes that value.
 void applyChanges(const ConcaveDistanceConfig& before, const ConcaveDistanceConfig& after,
                   PairSettings& settings);
+/// Changes all pairs of a scene and its defaults in the same way.
+void applyChanges(const ConcaveDistanceConfig& before, const ConcaveDistanceConfig& after, Scene& scene);
 
 /// The same when a client asks for it. @throws Error for what the next start would refuse, when it finds
 /// `after` on the parameter server

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "base/number_text.h"
-#include "loading/description_search.h"
 #include "scene/body_pool.h"
 
 namespace concave_distance {
@@ -18,18 +17,11 @@ namespace {
 constexpr const char* kSemanticDescription = "robot_description_semantic";
 constexpr const char* kSemanticSuffix = "_semantic";  // of the parameter's name, as in MoveIt
 
-std::optional<FoundDescription> findDescription(const ros::NodeHandle& node, const std::string& name) {
-  return searchDescription(node.getNamespace(), name, [&](const std::string& key) {
-    std::string text;
-    return node.getParam(key, text) ? std::optional<std::string>(text) : std::nullopt;
-  });
-}
-
 // Bodies can be added to this scene.
 Scene emptyScene(const SceneLoadOptions& options) {
   Scene scene;
   scene.cache = options.cache;
-  scene.pool = std::make_shared<BodyPool>(options.metric_memory_limit);
+  scene.pool = options.pool ? options.pool : std::make_shared<BodyPool>(options.metric_memory_limit);
   scene.limits = options.limits;
   scene.defaults.pairs = options.default_settings;
   return scene;
@@ -46,6 +38,15 @@ Scene loadRobot(const std::string& urdf, const std::string& name, const SceneLoa
 }
 
 }  // namespace
+
+std::optional<FoundDescription> findDescription(const ros::NodeHandle& node, const std::string& name,
+                                                bool cached) {
+  return searchDescription(node.getNamespace(), name, [&](const std::string& key) {
+    std::string text;
+    const bool is_there = cached ? node.getParamCached(key, text) : node.getParam(key, text);
+    return is_there ? std::optional<std::string>(text) : std::nullopt;
+  });
+}
 
 void logScene(const Scene& scene, double seconds) {
   for (const std::string& note : scene.notes) {
@@ -79,18 +80,19 @@ SceneRequest requestScene(const NodeParameters& parameters, const ros::NodeHandl
       request.waiting_for = "there is no parameter '" + name + "' with the robot's description";
       return request;
     }
-    request.descriptions[name] = found->text;
+    request.descriptions[name] = request.parameters[name] = found->text;
   }
   if (parameters.scene_file.empty() && !parameters.robot_description.empty()) {
-    const auto srdf = findDescription(node, parameters.robot_description + kSemanticSuffix);
-    if (srdf && srdf->is_xml) {
-      request.descriptions[kSemanticDescription] = srdf->text;
-    }
+    const std::string name = parameters.robot_description + kSemanticSuffix;
+    const auto srdf = findDescription(node, name);
+    if (srdf && srdf->is_xml)
+      request.descriptions[kSemanticDescription] = request.parameters[name] = srdf->text;
   }
   return request;
 }
 
-Scene loadScene(const NodeParameters& parameters, const SceneRequest& request, LoadProgress& progress) {
+Scene loadScene(const NodeParameters& parameters, const SceneRequest& request, LoadProgress& progress,
+                const std::shared_ptr<BodyPool>& pool) {
   SceneLoadOptions options;
   options.package_locator = rosPackagePath;
   options.mesh_search_path = parameters.mesh_search_folders;
@@ -100,9 +102,10 @@ Scene loadScene(const NodeParameters& parameters, const SceneRequest& request, L
   options.limits = {parameters.limits.largest_body_count, parameters.limits.largest_pair_count,
                     parameters.limits.largest_triangle_count, parameters.limits.largest_node_count};
   options.mesh_import = parameters.mesh_access.limits;
-  options.mesh_import.stop = &progress.stop;
+  options.mesh_import.stop = progress.stopped_with != nullptr ? progress.stopped_with : &progress.stop;
   options.descriptions = request.descriptions;
   options.progress = &progress;
+  options.pool = pool;
   options.automatic_cutoff = parameters.automatic_cutoff;
   options.skip_overlapping_pairs = parameters.skip_overlapping_pairs;
   if (parameters.chord_error > 0.0) options.chord_error = parameters.chord_error;
@@ -128,9 +131,10 @@ void SceneLoader::start(const NodeParameters& parameters, SceneRequest request) 
   outcome_ = Outcome();
   done_ = false;
   start_ = ros::WallTime::now();
-  thread_ = std::thread([this, parameters, request = std::move(request)] {
+  request_ = std::move(request);
+  thread_ = std::thread([this, parameters] {
     try {
-      outcome_.scene = loadScene(parameters, request, *progress_);
+      outcome_.scene = loadScene(parameters, request_, *progress_);
     } catch (const Error& error) {
       outcome_.error = error;
     } catch (const std::exception& exception) {  // memory, for one

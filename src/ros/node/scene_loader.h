@@ -13,6 +13,7 @@
 #include "concave_distance/loading/load_scene.h"
 #include "concave_distance/loading/resource_locator.h"
 #include "concave_distance/scene/scene.h"
+#include "loading/description_search.h"
 #include "node_parameters.h"
 
 namespace concave_distance {
@@ -22,9 +23,14 @@ std::string rosPackagePath(const std::string& package);
 
 /// Holds what the parameter server has for a scene.
 struct SceneRequest {
-  std::map<std::string, std::string> descriptions;  ///< texts by parameter name
+  std::map<std::string, std::string> descriptions;  ///< as SceneLoadOptions::descriptions
+  std::map<std::string, std::string> parameters;    ///< the same texts by the names that were looked for
   std::string waiting_for;                          ///< what is not there yet; empty: the scene can be loaded
 };
+
+/// Looks for a robot's description. @param cached as the master has sent it last
+std::optional<FoundDescription> findDescription(const ros::NodeHandle& node, const std::string& name,
+                                                bool cached = false);
 
 /// Reads the robot descriptions that the scene file or `~robot_description` names. Does not wait.
 /// @throws Error for a wrong scene file
@@ -36,7 +42,9 @@ void logScene(const Scene& scene, double seconds);
 /// Loads the scene. A robot whose URDF cannot be read becomes a problem of the scene, as does a broken mesh.
 /// Takes as long as preparing the bodies; calls ROS only to find packages.
 /// @throws Error for a wrong scene file
-Scene loadScene(const NodeParameters& parameters, const SceneRequest& request, LoadProgress& progress);
+/// @param pool as SceneLoadOptions::pool
+Scene loadScene(const NodeParameters& parameters, const SceneRequest& request, LoadProgress& progress,
+                const std::shared_ptr<BodyPool>& pool = nullptr);
 
 /// Prepares the scene on its own thread, so that services, diagnostics and shutdown do not wait.
 /// Use it from one thread at a time.
@@ -54,6 +62,8 @@ class SceneLoader {
   SceneLoader& operator=(const SceneLoader&) = delete;
 
   bool isRunning() const { return thread_.joinable(); }
+  /// Returns what the scene that was started last is of.
+  const SceneRequest& request() const { return request_; }
   void start(const NodeParameters& parameters, SceneRequest request);
   /// Returns how far it is, such as "prepared 12 of 54 bodies, 3.1 s".
   std::string progress() const;
@@ -66,6 +76,7 @@ class SceneLoader {
   std::shared_ptr<LoadProgress> progress_;
   std::atomic<bool> done_{false};
   ros::WallTime start_;
+  SceneRequest request_;
   Outcome outcome_;
 };
 

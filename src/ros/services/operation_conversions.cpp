@@ -27,6 +27,11 @@ std::string place(const std::string& list, std::size_t i) {
   return list + "[" + std::to_string(i) + "]";
 }
 
+bool hasHeight(std::uint8_t type) {
+  using shape_msgs::SolidPrimitive;
+  return type == SolidPrimitive::CYLINDER || type == SolidPrimitive::CONE || type == SceneOperation::CAPSULE;
+}
+
 BodyShape fromPrimitive(const shape_msgs::SolidPrimitive& primitive, const std::string& where) {
   using shape_msgs::SolidPrimitive;
   BodyShape shape;
@@ -43,15 +48,16 @@ BodyShape fromPrimitive(const shape_msgs::SolidPrimitive& primitive, const std::
     case SolidPrimitive::CONE:
       shape.primitive = "cone";
       break;
+    case SceneOperation::CAPSULE:
+      shape.primitive = "capsule";
+      break;
     default:
       throw Error(where + ".type", "the value is " + std::to_string(primitive.type),
-                  "allowed: BOX 1, SPHERE 2, CYLINDER 3, CONE 4");
+                  "allowed: BOX 1, SPHERE 2, CYLINDER 3, CONE 4, CAPSULE 200");
   }
   shape.dimensions = primitive.dimensions;
   // There the height is the first.
-  if (primitive.type == SolidPrimitive::CYLINDER || primitive.type == SolidPrimitive::CONE) {
-    std::reverse(shape.dimensions.begin(), shape.dimensions.end());
-  }
+  if (hasHeight(primitive.type)) std::reverse(shape.dimensions.begin(), shape.dimensions.end());
   return shape;
 }
 

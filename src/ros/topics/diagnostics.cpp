@@ -122,16 +122,20 @@ void describeEffects(const CycleWindow& window, diagnostic_updater::DiagnosticSt
   }
 }
 
-void describeScene(const Scene& scene, const std::string& waiting_for,
+void describeScene(const Scene& scene, const std::string& waiting_for, const std::string& changed,
                    diagnostic_updater::DiagnosticStatusWrapper& status) {
   if (!waiting_for.empty()) {
     status.summary(DiagnosticStatus::WARN, "waiting: " + waiting_for);
+  } else if (!changed.empty()) {
+    status.summary(DiagnosticStatus::WARN, "the parameter '" + changed +
+                                               "' has changed since it was loaded: call the service reload");
   } else if (!scene.problems.empty()) {
     status.summaryf(DiagnosticStatus::WARN, "%zu parts could not be loaded", scene.problems.size());
   } else {
     status.summary(DiagnosticStatus::OK, "loaded");
   }
   status.add("bodies", scene.bodies.size());
+  status.add("changed description", changed);
   status.add("pairs", scene.pairs.size() + countRuledPairs(scene));
   for (std::size_t index = 0; index < std::min(scene.problems.size(), kListed); ++index) {
     status.add("problem " + std::to_string(index + 1),

@@ -24,7 +24,9 @@ void describeMoves(const MoveReport& report, diagnostic_updater::DiagnosticStatu
 /// Reports how often each stage of the pairs' effects ran and its share of the cycles' processor time.
 void describeEffects(const CycleWindow& window, diagnostic_updater::DiagnosticStatusWrapper& status);
 /// Bodies, pairs and what could not be loaded (WARN), or what is waited for (WARN).
-void describeScene(const Scene& scene, const std::string& waiting_for,
+/// @param changed parameter with a robot's description that has changed since it was loaded (WARN); empty:
+///        none
+void describeScene(const Scene& scene, const std::string& waiting_for, const std::string& changed,
                    diagnostic_updater::DiagnosticStatusWrapper& status);
 
 }  // namespace concave_distance

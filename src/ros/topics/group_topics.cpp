@@ -38,8 +38,8 @@ std::shared_ptr<GroupTopics> advertise(const ros::NodeHandle& node, const std::s
   return topics;
 }
 
-// Of the pairs by rule that have no tracker and face a group: how many lack a transform or are cut is known
-// for the whole scene alone, and they count for the group as far as it has so many.
+// How many pairs by rule lack a transform or are cut is known for the whole scene alone. They count for a
+// group as far as it has so many pairs without a tracker.
 OtherPairs othersOf(std::size_t count, const OtherPairs& all) {
   OtherPairs others;
   others.missing = std::min<std::uint64_t>(count, all.missing);

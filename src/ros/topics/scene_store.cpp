@@ -25,8 +25,8 @@ std::uint64_t SceneStore::edit(const std::function<void(Scene&)>& change) {
   return apply(change, false);
 }
 
-void SceneStore::editSettings(const std::function<void(Scene&)>& change) {
-  apply(change, true);
+std::uint64_t SceneStore::editSettings(const std::function<void(Scene&)>& change) {
+  return apply(change, true);
 }
 
 std::uint64_t SceneStore::apply(const std::function<void(Scene&)>& change, bool settings_changed) {

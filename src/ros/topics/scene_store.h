@@ -27,7 +27,7 @@ class SceneStore {
   /// @return the revision of the scene that is served then
   std::uint64_t edit(const std::function<void(Scene&)>& change);
   /// The same for a change of pairs' settings.
-  void editSettings(const std::function<void(Scene&)>& change);
+  std::uint64_t editSettings(const std::function<void(Scene&)>& change);
   /// Applies `change` to every pair and to the scene's defaults.
   void changeSettings(const std::function<void(PairSettings&)>& change);
 

@@ -26,7 +26,7 @@ class ProgramOptions {
   void add(const std::string& name, std::vector<Value>& values, const std::string& what) {
     app_.add_option(name, values, what)->delimiter(',');
   }
-  /// The same of numbers that are at least `least`.
+  /// Takes numbers that are at least `least`.
   template <typename Number>
   void add(const std::string& name, std::vector<Number>& values, const std::string& what, Number least) {
     const Number most = std::numeric_limits<Number>::max();

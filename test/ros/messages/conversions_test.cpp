@@ -216,6 +216,28 @@ TEST(ToNiches, CarriesTheSignedDistanceWhereOnlyMarginsOverlap) {
   EXPECT_TRUE(std::isnan(message.nearest.signed_distance) && std::isnan(message.niches[0].signed_distance));
 }
 
+TEST(ToNiches, CarriesTheSignedPlaceInTheReferenceFrame) {
+  PairSolution solution = solutionWithOneNiche();
+  EXPECT_EQ(toNiches(quarterTurnHeading(), solution).niches[0].signed_state, Niche::SIGNED_NOT_ASKED);
+  SignedPlace& place = solution.niches[0].signed_place;
+  place.state = SignedState::Known;
+  place.point_a_in_a = place.pivot_in_a = {1.0, 2.0, 3.0};
+  place.point_b_in_a = {1.5, 2.0, 3.0};
+  place.gradient_in_a = {-1.0, 0.0, 0.0};
+  place.since_cycle = 7;
+  const PairHeading heading = quarterTurnHeading();
+  const Niche message = toNiches(heading, solution).niches[0];
+  EXPECT_EQ(message.signed_state, Niche::SIGNED_KNOWN);
+  const Eigen::Vector3d pivot = heading.reference_from_a * place.pivot_in_a;
+  const Eigen::Vector3d point_b = heading.reference_from_a * place.point_b_in_a;
+  const Eigen::Vector3d gradient = heading.reference_from_a.linear() * place.gradient_in_a;
+  EXPECT_EQ(message.signed_pivot.x, pivot.x());
+  EXPECT_EQ(message.signed_point_a.y, pivot.y());
+  EXPECT_EQ(message.signed_point_b.z, point_b.z());
+  EXPECT_EQ(message.signed_gradient.y, gradient.y());
+  EXPECT_EQ(message.signed_since_cycle, 7U);
+}
+
 TEST(QueryParameters, TakeTheQuerysWishesAndRefuseWhatMeansNothing) {
   TrackerParameters configured;
   configured.largest_niche_count = 5;

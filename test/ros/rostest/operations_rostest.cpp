@@ -160,7 +160,7 @@ struct Boxes {
   }
 };
 
-/// The same with what the node says of the group `robot` after each step.
+/// Asks besides what the node says of the group `robot` after each step.
 class Picking : public Operations {
  protected:
   /// The group's nearest pair is that of the boxes, and the group's alerts since the last step are these.

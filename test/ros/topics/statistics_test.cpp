@@ -108,13 +108,13 @@ TEST(DescribePairs, NamesThePairsWithoutTransforms) {
 TEST(DescribeScene, TellsWhatCouldNotBeLoaded) {
   Scene scene;
   diagnostic_updater::DiagnosticStatusWrapper status;
-  describeScene(scene, "", status);
+  describeScene(scene, "", "", status);
   EXPECT_EQ(status.level, DiagnosticStatus::OK);
   scene.problems.push_back({"cup.stl", "there is no such file"});
-  describeScene(scene, "", status);
+  describeScene(scene, "", "", status);
   EXPECT_EQ(status.level, DiagnosticStatus::WARN);
   EXPECT_EQ(valueOf(status, "problem 1"), "cup.stl: there is no such file");
-  describeScene(scene, "there is no robot description", status);
+  describeScene(scene, "there is no robot description", "", status);
   EXPECT_NE(status.message.find("robot description"), std::string::npos);
 }
 
