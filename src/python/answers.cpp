@@ -1,6 +1,5 @@
 #include "answers.h"
 
-#include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
 #include "bindings.h"
@@ -10,16 +9,6 @@ namespace concave_distance::python {
 namespace {
 
 namespace py = pybind11;
-
-Triple tripleOf(const Eigen::Vector3d& v) {
-  return {v.x(), v.y(), v.z()};
-}
-
-// An array of the vector's elements, which live as long as `owner`.
-template <typename Element>
-py::array_t<Element> viewOf(const std::vector<Element>& elements, const py::object& owner) {
-  return py::array_t<Element>(static_cast<py::ssize_t>(elements.size()), elements.data(), owner);
-}
 
 const Answers& answersIn(const py::object& self) {
   return *self.cast<const Answers*>();
@@ -44,11 +33,28 @@ void Answers::append(const PairSolution& solution) {
                   tripleOf(solution.normal_in_a), solution.closing_speed, solution.solve_seconds,
                   static_cast<std::uint8_t>(solution.status), solution.niches_complete, solution.niches_cut});
   for (const TrackedNiche& niche : solution.niches) {
-    niches.push_back({niche.id, niche.distance, niche.signed_distance, tripleOf(niche.point_a_in_a),
-                      tripleOf(niche.point_b_in_a), tripleOf(niche.normal_in_a), niche.closing_speed,
-                      niche.extent, niche.prominence, static_cast<std::uint8_t>(niche.kind),
-                      static_cast<std::uint8_t>(niche.outward), static_cast<std::uint8_t>(niche.origin),
-                      niche.visible});
+    const SignedPlace& place = niche.signed_place;
+    niches.push_back({niche.id,
+                      niche.distance,
+                      niche.signed_distance,
+                      tripleOf(niche.point_a_in_a),
+                      tripleOf(niche.point_b_in_a),
+                      tripleOf(niche.normal_in_a),
+                      niche.closing_speed,
+                      niche.extent,
+                      niche.prominence,
+                      tripleOf(place.point_a_in_a),
+                      tripleOf(place.point_b_in_a),
+                      tripleOf(place.pivot_in_a),
+                      tripleOf(place.gradient_in_a),
+                      place.since_cycle,
+                      niche.birth_cycle,
+                      static_cast<std::uint8_t>(place.state),
+                      static_cast<std::uint8_t>(niche.kind),
+                      static_cast<std::uint8_t>(niche.outward),
+                      static_cast<std::uint8_t>(niche.origin),
+                      niche.visible,
+                      niche.proven_local_minimum});
   }
   niche_offsets.push_back(static_cast<std::int64_t>(niches.size()));
 }
@@ -57,6 +63,8 @@ SceneAnswers::SceneAnswers(const SceneTracker::Pairs& tracked) {
   for (const auto& pair : tracked) {
     append(pair->solution);
     pairs.push_back(pair->origin->name);
+    bodies.push_back(static_cast<std::int64_t>(pair->origin->body_a));
+    bodies.push_back(static_cast<std::int64_t>(pair->origin->body_b));
     states.push_back(static_cast<std::uint8_t>(pair->state));
     bounds.push_back(pair->box_bound.value_or(kNotComputed));
   }
@@ -66,7 +74,9 @@ void bindAnswers(py::module_& module) {
   PYBIND11_NUMPY_DTYPE(AnswerRow, distance, lower_bound, signed_distance, point_a, point_b, normal,
                        closing_speed, solve_seconds, status, niches_complete, niches_cut);
   PYBIND11_NUMPY_DTYPE(NicheRow, id, distance, signed_distance, point_a, point_b, normal, closing_speed,
-                       extent, prominence, kind, outward, origin, visible);
+                       extent, prominence, signed_point_a, signed_point_b, signed_pivot, signed_gradient,
+                       signed_since_cycle, birth_cycle, signed_state, kind, outward, origin, visible,
+                       proven_local_minimum);
   py::class_<Answers>(
       module, "Answers",
       "Answers as structured arrays. What was not computed is NaN. Metres, seconds; points and "
@@ -86,8 +96,13 @@ void bindAnswers(py::module_& module) {
           "(m,) niches of all rows, ascending by distance within each, with the columns id (persistent while "
           "the "
           "niche lives), distance, signed_distance, point_a (3), point_b (3), normal (3), closing_speed, "
-          "extent, "
-          "prominence, kind (NicheKind), outward (Outwardness), origin (NicheOrigin), visible.")
+          "extent, prominence, kind (NicheKind), outward (Outwardness), origin (NicheOrigin), visible, "
+          "birth_cycle, "
+          "proven_local_minimum; with the parameter signed_values also signed_state (SignedState), "
+          "signed_point_a "
+          "(3), signed_point_b (3), signed_pivot (3), signed_gradient (3; rate of signed_distance by the "
+          "velocity of "
+          "B less that of A at the pivot), signed_since_cycle.")
       .def_property_readonly(
           "niche_offsets", [](const py::object& self) { return viewOf(answersIn(self).niche_offsets, self); },
           "(n + 1,) int64: the niches of row i are niches[niche_offsets[i]:niche_offsets[i + 1]].")
@@ -95,6 +110,12 @@ void bindAnswers(py::module_& module) {
   py::class_<SceneAnswers, Answers>(module, "SceneAnswers",
                                     "Answers of the pairs of a scene in one cycle, a row for each pair.")
       .def_readonly("pairs", &SceneAnswers::pairs, "Names of the pairs, one for each row.")
+      .def_property_readonly(
+          "bodies",
+          [](const py::object& self) {
+            return viewOf(self.cast<const SceneAnswers*>()->bodies, self).reshape({-1, 2});
+          },
+          "(n, 2) int64: places of A and B in Scene.body_names.")
       .def_property_readonly(
           "states",
           [](const py::object& self) { return viewOf(self.cast<const SceneAnswers*>()->states, self); },

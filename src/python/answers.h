@@ -1,16 +1,14 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
 
+#include "arrays.h"
 #include "concave_distance/scene/scene_tracker.h"
 #include "concave_distance/tracking/pair_solution.h"
 
 namespace concave_distance::python {
-
-using Triple = std::array<double, 3>;
 
 /// A row of Answers.rows: PairSolution without its lists. Metres, seconds, A's frame.
 struct AnswerRow {
@@ -38,10 +36,18 @@ struct NicheRow {
   double closing_speed;
   double extent;
   double prominence;
-  std::uint8_t kind;     ///< NicheKind
-  std::uint8_t outward;  ///< Outwardness
-  std::uint8_t origin;   ///< NicheOrigin
+  Triple signed_point_a;
+  Triple signed_point_b;
+  Triple signed_pivot;
+  Triple signed_gradient;
+  std::uint64_t signed_since_cycle;
+  std::uint64_t birth_cycle;
+  std::uint8_t signed_state;  ///< SignedState
+  std::uint8_t kind;          ///< NicheKind
+  std::uint8_t outward;       ///< Outwardness
+  std::uint8_t origin;        ///< NicheOrigin
   bool visible;
+  bool proven_local_minimum;
 };
 
 /// Answers of one pair at many poses, or of many pairs in one cycle, as Python reads them.
@@ -57,6 +63,7 @@ struct SceneAnswers : Answers {
   explicit SceneAnswers(const SceneTracker::Pairs& tracked);
 
   std::vector<std::string> pairs;    ///< names
+  std::vector<std::int64_t> bodies;  ///< A and B of each pair, in Scene.body_names
   std::vector<std::uint8_t> states;  ///< PairState
   std::vector<double> bounds;        ///< metres, proven by boxes where the pair is beyond its cutoff
 };

@@ -18,7 +18,11 @@ void bindAnswers(pybind11::module_& module);
 void bindBodies(pybind11::module_& module);
 /// PairTracker, solve_each, parameters. After bindBodies() and bindAnswers().
 void bindPairs(pybind11::module_& module);
-/// Scene, SceneTracker and what loads a scene. After bindAnswers().
+/// Scene and what loads one.
 void bindScenes(pybind11::module_& module);
+/// SceneTracker. After bindScenes() and bindAnswers().
+void bindSceneTracker(pybind11::module_& module);
+/// ConstraintRows and Constraints. After bindSceneTracker().
+void bindRows(pybind11::module_& module);
 
 }  // namespace concave_distance::python

@@ -2,6 +2,7 @@
 #include <vector>
 
 #include "bindings.h"
+#include "concave_distance/kinematics/constraint_rows.h"
 #include "concave_distance/scene/tracked_pair.h"
 #include "concave_distance/tracking/pair_solution.h"
 
@@ -49,6 +50,24 @@ void bindEnums(py::module_& module) {
                          {"EVOLVED", NicheOrigin::Evolved},
                          {"FROM_CONES", NicheOrigin::FromCones},
                          {"PROVEN", NicheOrigin::Proven}});
+  bindEnum<SignedState>(
+      module, "SignedState",
+      "Whether a niche has a signed value where bodies overlap, or why not: column "
+      "`signed_state`.\n\n"
+      "NOT_ASKED: signed_values is off. OPEN_SURFACE, CROSSED_SHELLS, NO_CLOSED_FORM: there is no "
+      "depth. UNFINISHED: a limit was reached first.",
+      {{"NOT_ASKED", SignedState::NotAsked},
+       {"KNOWN", SignedState::Known},
+       {"OPEN_SURFACE", SignedState::OpenSurface},
+       {"CROSSED_SHELLS", SignedState::CrossedShells},
+       {"NO_CLOSED_FORM", SignedState::NoClosedForm},
+       {"UNFINISHED", SignedState::Unfinished}});
+  bindEnum<SlotState>(
+      module, "SlotState",
+      "What a slot of constraint rows has: column `state`.\n\n"
+      "FREE: no row. USED: one. FREED: its row ended a few cycles ago, and no other begins there "
+      "while there is room.",
+      {{"FREE", SlotState::Free}, {"USED", SlotState::Used}, {"FREED", SlotState::Freed}});
   bindEnum<PairState>(
       module, "PairState",
       "What a cycle of a scene did with a pair: SceneAnswers.states.\n\n"

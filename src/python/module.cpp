@@ -10,6 +10,8 @@ PYBIND11_MODULE(_concave_distance, module) {
   bindBodies(module);
   bindPairs(module);
   bindScenes(module);
+  bindSceneTracker(module);
+  bindRows(module);
   for (const auto& entry : py::dict(module.attr("__dict__"))) {
     if (PyType_Check(entry.second.ptr()) != 0) entry.second.attr("__module__") = "concave_distance";
   }

@@ -1,6 +1,7 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <mutex>
@@ -110,16 +111,22 @@ Answers solveEachOf(const PythonBody& a, const PythonBody& b, const py::object& 
   const std::vector<GivenPose> given = readPoses(poses, "poses");
   const TrackerParameters parameters = parametersFor(a, b, {}, keywords);
   const py::gil_scoped_release unlocked;
-  // So many solutions at a time, with their niches, are held besides the answers.
-  constexpr std::size_t kBatch = 1024;
+  // So many solutions at a time, with their niches, are held besides the answers; signals are looked for
+  // between.
+  constexpr std::size_t kLargestBatch = 1024;
+  constexpr std::chrono::milliseconds kUsualDuration{50};
   SignalCheck check_signals;
   Answers answers;
-  for (std::size_t first = 0; first < given.size(); first += kBatch) {
+  std::size_t batch_size = 16;
+  for (std::size_t first = 0; first < given.size();) {
+    const auto begin = std::chrono::steady_clock::now();
     std::vector<Eigen::Isometry3d> batch;
-    for (std::size_t i = first; i < std::min(first + kBatch, given.size()); ++i)
-      batch.push_back(given[i].pose);
+    const std::size_t end = std::min(first + batch_size, given.size());
+    for (; first < end; ++first) batch.push_back(given[first].pose);
     for (const PairSolution& solution : solveEach(name, a.mesh, b.mesh, parameters, batch, threads))
       answers.append(solution);
+    if (std::chrono::steady_clock::now() - begin < kUsualDuration)
+      batch_size = std::min(2 * batch_size, kLargestBatch);
     check_signals();
   }
   return answers;

@@ -34,11 +34,11 @@ Eigen::Isometry3d poseOfQuaternion(const double* v) {
   return poseOf(QueryPose{0.0, {v[0], v[1], v[2]}, {v[3], v[4], v[5], v[6]}}).value_or(noPose());
 }
 
+}  // namespace
+
 std::string shapeOf(const py::array& array) {
   return py::str(py::tuple(array.attr("shape"))).cast<std::string>();
 }
-
-}  // namespace
 
 DoubleArray readNumbers(const py::object& given, const std::string& where) {
   const py::array array = py::array::ensure(given);

@@ -20,6 +20,9 @@ struct GivenPose {
 /// Reads numbers. @throws Error naming the argument when it is no array of real numbers
 DoubleArray readNumbers(const pybind11::object& given, const std::string& where);
 
+/// Returns an array's shape as numpy prints it.
+std::string shapeOf(const pybind11::array& array);
+
 /// Reads (4, 4) or (7), as one pose, (n, 4, 4) or (n, 7): homogeneous matrices or x, y, z, qx, qy, qz, qw,
 /// metres.
 /// @throws Error naming the argument and its shape

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <atomic>
 #include <chrono>
+#include <functional>
 
 namespace concave_distance::python {
 
@@ -13,5 +15,9 @@ class SignalCheck {
  private:
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
+
+/// Runs work in a thread of its own while this one, without the interpreter's lock, waits and looks for
+/// signals. A signal's exception sets `stop`, which the work is to obey, and is thrown when it has ended.
+void runWatched(const std::function<void()>& work, std::atomic<bool>& stop);
 
 }  // namespace concave_distance::python

@@ -85,6 +85,12 @@ class Bodies(unittest.TestCase):
                 ("poses", "(3, 5)", lambda: cd.PairTracker(box, box).solve(np.zeros((3, 5)))),
                 ("poses", "type", lambda: cd.PairTracker(box, box).solve("here")),
                 ("poses", "type", lambda: cd.PairTracker(box, box).solve(np.eye(4) * 1j)),
+                ("poses", "type", lambda: cd.PairTracker(box, box).solve(np.array([None] * 7))),
+                ("poses", "type", lambda: cd.PairTracker(box, box).solve(None)),
+                ("poses", "type", lambda: cd.solve_each(box, box, np.ones((1, 7), dtype="datetime64[s]"))),
+                ("poses", "(1, 1, 1, 7)", lambda: cd.PairTracker(box, box).solve(np.zeros((1, 1, 1, 7)))),
+                ("poses", "()", lambda: cd.PairTracker(box, box).solve(7.0)),
+                ("times", "not finite", lambda: cd.PairTracker(box, box).update(np.zeros((1, 7)), [np.nan])),
                 ("times", "1 for 2", lambda: cd.PairTracker(box, box).update(np.zeros((2, 7)), [0.0]))):
             with self.subTest(where=where, what=what):
                 with self.assertRaises(cd.Error) as caught:
@@ -102,6 +108,7 @@ class Pairs(unittest.TestCase):
         expected = np.maximum(np.linalg.norm(quaternions[:, :3], axis=1) - 0.5, 0.0)
         for answers in (tracker.solve(quaternions), tracker.solve(matrices), tracker.update(matrices),
                         tracker.solve(np.asfortranarray(matrices)), tracker.solve(matrices.tolist()),
+                        tracker.solve(np.repeat(quaternions, 2, axis=1)[:, ::2]), tracker.solve(quaternions.astype(">f8")),
                         cd.solve_each(tracker.body_a, tracker.body_b, quaternions, threads=2)):
             self.assertEqual(len(answers), 200)
             np.testing.assert_allclose(answers.rows["distance"], expected, atol=1e-12)
@@ -123,7 +130,9 @@ class Pairs(unittest.TestCase):
         transposed[3, 0] = 2.0
         tracker = cd.PairTracker(cd.make_sphere(0.3), cd.make_sphere(0.2))
         self.assertEqual(tracker.solve(transposed).rows["status"][0], cd.Status.INVALID_POSE)
-        self.assertEqual(len(tracker.solve(np.zeros((0, 7)))), 0)
+        for none in (tracker.solve(np.zeros((0, 7))), tracker.update(np.zeros((0, 4, 4)), []),
+                     cd.solve_each(tracker.body_a, tracker.body_b, np.zeros((0, 7)))):
+            self.assertEqual((len(none), none.niches.size, none.niche_offsets.tolist()), (0, 0, [0]))
 
     def test_a_motion_keeps_ids_and_has_speeds(self):
         poses = np.tile(np.eye(4), (5, 1, 1))
@@ -159,6 +168,19 @@ class Pairs(unittest.TestCase):
         self.assertIsNone(cd.PairTracker(box, box, cutoff=np.inf).parameters["cutoff"])
         self.assertIsNone(cd.PairTracker(box, box, cutoff="none").parameters["cutoff"])
 
+    def test_bodies_outlive_their_names(self):
+        bodies = [cd.make_sphere(0.3), cd.make_sphere(0.2)]
+        tracker = cd.PairTracker(*bodies)
+        repair = tracker.body_a.repair
+        results = []
+        thread = threading.Thread(target=lambda: results.append(tracker.solve(random_poses(2000, 2.0)[0])))
+        thread.start()
+        del bodies, tracker
+        gc.collect()
+        thread.join()
+        self.assertEqual(len(results[0]), 2000)
+        self.assertEqual(repair.shells, 1)
+
     def test_arrays_outlive_their_answers(self):
         tracker = cd.PairTracker(cd.make_sphere(0.3), cd.make_sphere(0.2))
         rows = tracker.solve(random_poses(1000, 2.0)[0]).rows["distance"]
@@ -167,6 +189,55 @@ class Pairs(unittest.TestCase):
         for _ in range(10):
             tracker.solve(random_poses(1000, 3.0)[0])
         np.testing.assert_array_equal(rows, before)
+
+
+class Niches(unittest.TestCase):
+    def test_what_a_niche_has(self):
+        # A cube above a plate in parallel, then tilted about y: a patch, then an edge.
+        tracker = cd.PairTracker(cd.make_box((1, 1, 0.1)), cd.make_box((0.2, 0.2, 0.2)))
+        angle = 0.5 * np.arcsin(0.3)
+        answers = tracker.solve([[0, 0, 0.3, 0, 0, 0, 1], [0, 0, 0.3, 0, np.sin(angle), 0, np.cos(angle)]])
+        nearest = answers.niches[answers.niche_offsets[:2]]
+        self.assertEqual(nearest["kind"].tolist(), [cd.NicheKind.PATCH, cd.NicheKind.SEGMENT])
+        np.testing.assert_allclose(nearest["extent"], [0.2 * np.sqrt(2.0), 0.2], atol=1e-6)
+        np.testing.assert_array_equal(nearest["distance"], answers.rows["distance"])
+        self.assertEqual(set(answers.niches["outward"]), {cd.Outwardness.OUTWARD})
+        self.assertTrue(np.all(answers.niches["visible"]))
+        self.assertLessEqual(set(answers.niches["origin"]), set(cd.NicheOrigin))
+        self.assertEqual(set(answers.niches["signed_state"]), {cd.SignedState.NOT_ASKED})
+        np.testing.assert_allclose(nearest["normal"], [[0, 0, 1]] * 2, atol=1e-9)
+
+    def test_origin_and_birth_over_cycles(self):
+        poses = np.tile([0.0, 0, 0.3, 0, 0, 0, 1], (5, 1))
+        poses[:, 0] = 0.01 * np.arange(5)
+        answers = cd.PairTracker(*insertion()).update(poses)
+        seen = set()
+        for index in range(5):
+            for niche in answers.niches_of(index):
+                self.assertEqual(niche["origin"] == cd.NicheOrigin.INHERITED, niche["id"] in seen)
+            seen.update(answers.niches_of(index)["id"])
+        self.assertGreater(len(seen), 3)
+        self.assertGreater(len(set(answers.niches["birth_cycle"])), 0)
+        self.assertTrue(np.all(np.diff(np.unique(answers.niches[["id", "birth_cycle"]])["id"]) > 0))
+
+    def test_one_signed_value_through_contact(self):
+        cubes = [cd.make_box((1, 1, 1)), cd.make_box((0.4, 0.4, 0.4))]
+        poses = np.tile([0.0, 0, 0, 0, 0, 0, 1], (9, 1))
+        poses[:, 0] = 0.9 - 0.05 * np.arange(9)
+        tracker = cd.PairTracker(*cubes, signed_values=True)
+        answers = tracker.update(poses)
+        nearest = answers.niches[answers.niche_offsets[:-1]]
+        np.testing.assert_allclose(nearest["signed_distance"], poses[:, 0] - 0.7, atol=1e-8)
+        self.assertEqual(set(nearest["signed_state"]), {cd.SignedState.KNOWN})
+        np.testing.assert_allclose(nearest["signed_gradient"], [[1, 0, 0]] * 9, atol=1e-6)
+        np.testing.assert_array_equal(answers.rows["distance"][poses[:, 0] < 0.69], 0.0)
+
+    def test_prominence_beside_the_least(self):
+        answers = cd.PairTracker(*insertion(), prominence_limit=1.0).solve([0.0, 0, 0.3, 0, 0, 0, 1])
+        self.assertEqual(answers.niches["prominence"][0], np.inf)
+        measured = answers.niches["prominence"][1:]
+        self.assertTrue(np.all(measured[~np.isnan(measured)] >= 0.01))
+        self.assertTrue(np.any(~np.isnan(measured)))
 
 
 class BesideTheTool(unittest.TestCase):
@@ -261,15 +332,26 @@ class Threads(unittest.TestCase):
 
         tracker = cd.PairTracker(*insertion())
         poses = np.tile([0.0, 0, 0.3, 0, 0, 0, 1], (100000, 1))  # takes many minutes
-        before = signal.signal(signal.SIGALRM, ring)
-        try:
-            signal.setitimer(signal.ITIMER_REAL, 0.3)
-            with self.assertRaises(Alarm):
-                tracker.solve(poses)
-        finally:
-            signal.setitimer(signal.ITIMER_REAL, 0.0)
-            signal.signal(signal.SIGALRM, before)
-        self.assertEqual(tracker.solve(poses[:1]).rows["status"][0], cd.Status.OK)
+        moving = poses + np.outer(np.random.default_rng(3).random(100000), [0, 0, 1e-3, 0, 0, 0, 0])
+        for call in (lambda: tracker.solve(poses), lambda: tracker.update(moving),
+                     lambda: cd.solve_each(tracker.body_a, tracker.body_b, poses)):
+            before = signal.signal(signal.SIGALRM, ring)
+            try:
+                signal.setitimer(signal.ITIMER_REAL, 0.3)
+                with self.assertRaises(Alarm):
+                    call()
+            finally:
+                signal.setitimer(signal.ITIMER_REAL, 0.0)
+                signal.signal(signal.SIGALRM, before)
+            self.assertEqual(tracker.solve(poses[:1]).rows["status"][0], cd.Status.OK)
+
+    def test_an_interrupt_ends_a_call(self):
+        tracker = cd.PairTracker(*insertion())
+        timer = threading.Timer(0.3, lambda: os.kill(os.getpid(), signal.SIGINT))
+        timer.start()
+        with self.assertRaises(KeyboardInterrupt):
+            tracker.solve(np.tile([0.0, 0, 0.3, 0, 0, 0, 1], (100000, 1)))
+        timer.join()
 
 
 if __name__ == "__main__":

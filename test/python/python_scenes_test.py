@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """Scenes and robots in Python, beside closed forms."""
 import os
+import signal
 import tempfile
 import unittest
 
@@ -91,6 +92,32 @@ class Scenes(unittest.TestCase):
             self.assertEqual(answers.pairs, ["base/ball"])
             self.assertAlmostEqual(answers.rows["distance"][0], np.hypot(position, 0.7) - 0.15)
 
+    def test_a_signal_ends_a_cycle(self):
+        class Alarm(Exception):
+            pass
+
+        def ring(*_):
+            raise Alarm
+
+        meshes = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "meshes", "thesis")
+        bodies = ["  - {{name: b{}, mesh: {}/{}.stl}}".format(index, meshes, ("fixture", "battery")[index % 2])
+                  for index in range(40)]
+        pairs = ["  - {{between: [b{}, b{}]}}".format(a, b) for a in range(40) for b in range(a)]
+        text = "bodies:\n" + "\n".join(bodies) + "\npairs:\n" + "\n".join(pairs) + "\n"
+        tracker = cd.SceneTracker(cd.load_scene(self.write("many.yaml", text), strict=True), threads=1)
+        poses = np.tile([0.0, 0, 0, 0, 0, 0, 1], (40, 1))
+        poses[:, :3] = 0.7 * np.argwhere(np.ones((4, 4, 3)))[:40]
+        before = signal.signal(signal.SIGALRM, ring)
+        try:
+            signal.setitimer(signal.ITIMER_REAL, 0.15)
+            with self.assertRaises(Alarm):
+                tracker.update(poses, 0.0)
+        finally:
+            signal.setitimer(signal.ITIMER_REAL, 0.0)
+            signal.signal(signal.SIGALRM, before)
+        states = tracker.update(poses, 1.0, niches_wanted=False).states
+        self.assertEqual(set(states), {cd.PairState.SOLVED})
+
     def test_errors(self):
         scene = cd.load_scene(self.write("scene.yaml", SCENE), cache="off")
         robot = cd.load_robot(self.write("robot.urdf", ROBOT), cache="off")
@@ -104,7 +131,7 @@ class Scenes(unittest.TestCase):
                 ("load_scene", "'margin_a'", lambda: cd.load_scene(wrong, margin_a=0.1)),
                 ("poses", "1 for 2", lambda: cd.SceneTracker(scene).update(np.eye(4), 0.0)),
                 ("poses", "'far'", lambda: cd.SceneTracker(scene).update(no_pose, 0.0)),
-                ("positions", "1 numbers", lambda: robot.poses_of_bodies(np.zeros((3, 2)))),
+                ("positions", "(3, 2)", lambda: robot.poses_of_bodies(np.zeros((3, 2)))),
                 ("", "finite", lambda: robot.poses_of_bodies([np.nan]))):
             with self.subTest(where=where, what=what):
                 with self.assertRaises(cd.Error) as caught:

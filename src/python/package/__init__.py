@@ -7,6 +7,8 @@ with ROS are in concave_distance.msg and concave_distance.srv.
 __all__ = [
     "Answers",
     "BodyMesh",
+    "ConstraintRows",
+    "Constraints",
     "Error",
     "NicheKind",
     "NicheOrigin",
@@ -17,6 +19,8 @@ __all__ = [
     "Scene",
     "SceneAnswers",
     "SceneTracker",
+    "SignedState",
+    "SlotState",
     "Status",
     "load_body",
     "load_robot",

@@ -35,6 +35,19 @@ class NicheOrigin(IntEnum):
     FROM_CONES = 2
     PROVEN = 3
 
+class SignedState(IntEnum):
+    NOT_ASKED = 0
+    KNOWN = 1
+    OPEN_SURFACE = 2
+    CROSSED_SHELLS = 3
+    NO_CLOSED_FORM = 4
+    UNFINISHED = 5
+
+class SlotState(IntEnum):
+    FREE = 0
+    USED = 1
+    FREED = 2
+
 class PairState(IntEnum):
     NOT_WATCHED = 0
     NOT_LOCATED = 1
@@ -55,6 +68,8 @@ class Answers:
 class SceneAnswers(Answers):
     @property
     def pairs(self) -> List[str]: ...
+    @property
+    def bodies(self) -> NDArray[np.int64]: ...
     @property
     def states(self) -> NDArray[np.uint8]: ...
     @property
@@ -142,6 +157,7 @@ class PairTracker:
         memory_limit: int = ...,
         prominence_limit: _Limit = ...,
         keep_through_material: bool = ...,
+        signed_values: bool = ...,
         inherited_per_niche: float = ...,
         inherited_limit: int = ...,
         random_starts: int = ...,
@@ -171,10 +187,14 @@ class Scene:
     @property
     def notes(self) -> List[str]: ...
     @property
+    def robot_names(self) -> List[str]: ...
+    @property
     def position_names(self) -> List[str]: ...
     @property
+    def velocity_names(self) -> List[str]: ...
+    @property
     def rest_positions(self) -> NDArray[np.float64]: ...
-    def poses_of_bodies(self, positions: ArrayLike) -> NDArray[np.float64]: ...
+    def poses_of_bodies(self, positions: ArrayLike, roots: Optional[ArrayLike] = None) -> NDArray[np.float64]: ...
 
 def load_scene(
     path: str,
@@ -201,5 +221,25 @@ class SceneTracker:
     def __init__(self, scene: Scene, threads: int = 0) -> None: ...
     def update(self, poses: ArrayLike, time: float, *, niches_wanted: bool = True) -> SceneAnswers: ...
     def restart(self) -> None: ...
+    @property
+    def scene(self) -> Scene: ...
+
+class Constraints:
+    @property
+    def rows(self) -> NDArray[np.void]: ...
+    @property
+    def jacobian(self) -> NDArray[np.float64]: ...
+    @property
+    def pairs(self) -> List[str]: ...
+    @property
+    def overflow(self) -> int: ...
+    def __len__(self) -> int: ...
+
+class ConstraintRows:
+    def __init__(self, scene: Scene, *, distance: float = 0.1, capacity: int = 64) -> None: ...
+    def update(
+        self, tracker: SceneTracker, positions: ArrayLike, roots: Optional[ArrayLike] = None
+    ) -> Constraints: ...
+    def reset(self) -> None: ...
     @property
     def scene(self) -> Scene: ...
