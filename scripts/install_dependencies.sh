@@ -32,6 +32,7 @@ set -euo pipefail
     python3-yaml  # digests of experiments in the test `results`
     python3-rosmaster python3-rospy python3-tf2-msgs python3-rosgraph-msgs python3-dynamic-reconfigure  # scripts/faults.sh
     python3-sensor-msgs  # pick_parts.py
+    python3-matplotlib  # examples/plot_niches.py
   )
   debian_demo=(
     python3-roslaunch python3-rospy python3-rosservice python3-rostopic rosbash rviz ros-robot-state-publisher
@@ -56,8 +57,8 @@ set -euo pipefail
     ros-noetic-roscpp ros-noetic-rosgraph-msgs ros-noetic-roslib ros-noetic-sensor-msgs ros-noetic-shape-msgs ros-noetic-std-msgs ros-noetic-std-srvs ros-noetic-tf2
     ros-noetic-tf2-eigen ros-noetic-tf2-ros ros-noetic-visualization-msgs
   )
-  noetic_build=("${noetic_node[@]}" libcgal-dev libalglib-dev libfcl-dev pybind11-dev python3-dev python3-numpy)
-  noetic_test=(git locales python3-yaml libgtest-dev libfcl-dev libboost-dev libbenchmark-dev ros-noetic-rostest ros-noetic-rosmaster ros-noetic-rospy ros-noetic-tf2-msgs)
+  noetic_build=("${noetic_node[@]}" libcgal-dev libalglib-dev libfcl-dev python3-dev python3-numpy)
+  noetic_test=(git locales python3-yaml libgtest-dev libfcl-dev libboost-dev libbenchmark-dev ros-noetic-rostest ros-noetic-rosmaster ros-noetic-rospy ros-noetic-tf2-msgs python3-matplotlib)
   noetic_demo=(
     ros-noetic-roslaunch ros-noetic-rospy ros-noetic-rosservice ros-noetic-rostopic ros-noetic-rosbash ros-noetic-rviz
     ros-noetic-robot-state-publisher ros-noetic-tf2-msgs

@@ -18,7 +18,7 @@ namespace concave_distance::python {
 /// Python has this as SceneTracker: usable from any thread, one at a time.
 class PythonSceneTracker {
  public:
-  /// What the last cycle was run at.
+  /// Holds the input of the last cycle.
   struct Cycle {
     std::vector<std::optional<Eigen::Isometry3d>> world_from_body;  ///< empty before the first one
     double time = -std::numeric_limits<double>::infinity();         ///< seconds
