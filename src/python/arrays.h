@@ -6,9 +6,12 @@
 #include <array>
 #include <vector>
 
+#include "concave_distance/base/not_computed.h"
+
 namespace concave_distance::python {
 
 using Triple = std::array<double, 3>;
+inline constexpr Triple kUnknownPoint = {kNotComputed, kNotComputed, kNotComputed};
 
 inline Triple tripleOf(const Eigen::Vector3d& v) {
   return {v.x(), v.y(), v.z()};

@@ -35,11 +35,11 @@ struct SlotRow {
   std::uint64_t age = 0;
   double value = kNotComputed;
   double lower_bound = kNotComputed;
-  Triple normal{};
-  Triple point_a{};
-  Triple point_b{};
-  Triple point_a_in_frame{};
-  Triple point_b_in_frame{};
+  Triple normal = kUnknownPoint;
+  Triple point_a = kUnknownPoint;
+  Triple point_b = kUnknownPoint;
+  Triple point_a_in_frame = kUnknownPoint;
+  Triple point_b_in_frame = kUnknownPoint;
   double drift = kNotComputed;
 };
 

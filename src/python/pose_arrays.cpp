@@ -52,24 +52,32 @@ DoubleArray readNumbers(const py::object& given, const std::string& where) {
   return numbers;
 }
 
-std::vector<GivenPose> readPoses(const py::object& given, const std::string& where) {
+GivenPoses readPoses(const py::object& given, const std::string& where, std::size_t most_axes) {
   const DoubleArray numbers = readNumbers(given, where);
   const py::ssize_t axes = numbers.ndim();
   const bool are_matrices = axes >= 2 && numbers.shape(axes - 1) == 4 && numbers.shape(axes - 2) == 4;
   const bool are_quaternions = !are_matrices && axes >= 1 && numbers.shape(axes - 1) == 7;
   const py::ssize_t axes_of_one = are_matrices ? 2 : 1;
-  if ((!are_matrices && !are_quaternions) || axes > axes_of_one + 1)
+  if ((!are_matrices && !are_quaternions) || axes > axes_of_one + static_cast<py::ssize_t>(most_axes))
     throw Error(where, "has the shape " + shapeOf(numbers),
-                "give (4, 4), (n, 4, 4), (7,) or (n, 7): matrices, or x, y, z, qx, qy, qz, qw");
+                "give matrices, (..., 4, 4), or x, y, z, qx, qy, qz, qw, (..., 7), with at most " +
+                    std::to_string(most_axes) + (most_axes == 1 ? " axis" : " axes") + " before");
   const std::size_t size = are_matrices ? 16 : 7;
-  std::vector<GivenPose> poses(static_cast<std::size_t>(numbers.size()) / size);
+  GivenPoses read;
+  for (py::ssize_t axis = 0; axis < axes - axes_of_one; ++axis)
+    read.shape.push_back(static_cast<std::size_t>(numbers.shape(axis)));
+  read.poses.resize(static_cast<std::size_t>(numbers.size()) / size);
   const double* at = numbers.data();
-  for (GivenPose& pose : poses) {
+  for (GivenPose& pose : read.poses) {
     pose.pose = are_matrices ? poseOfMatrix(at) : poseOfQuaternion(at);
     pose.is_missing = std::all_of(at, at + size, [](double v) { return std::isnan(v); });
     at += size;
   }
-  return poses;
+  return read;
+}
+
+std::vector<GivenPose> readPoses(const py::object& given, const std::string& where) {
+  return readPoses(given, where, 1).poses;
 }
 
 void writeMatrix(const Eigen::Isometry3d& pose, double* numbers) {

@@ -23,9 +23,17 @@ DoubleArray readNumbers(const pybind11::object& given, const std::string& where)
 /// Returns an array's shape as numpy prints it.
 std::string shapeOf(const pybind11::array& array);
 
-/// Reads (4, 4) or (7), as one pose, (n, 4, 4) or (n, 7): homogeneous matrices or x, y, z, qx, qy, qz, qw,
-/// metres.
+/// Poses of an array.
+struct GivenPoses {
+  std::vector<GivenPose> poses;    ///< one after the other
+  std::vector<std::size_t> shape;  ///< of the array, without the axes of a pose
+};
+
+/// Reads an array of poses: each (4, 4), a homogeneous matrix, or (7), x, y, z, qx, qy, qz, qw, metres; one
+/// alone or in up to so many axes.
 /// @throws Error naming the argument and its shape
+GivenPoses readPoses(const pybind11::object& given, const std::string& where, std::size_t most_axes);
+/// Reads one pose, or a list of them.
 std::vector<GivenPose> readPoses(const pybind11::object& given, const std::string& where);
 
 /// Writes a pose as 16 numbers, row by row.

@@ -3,13 +3,16 @@
 #include <Eigen/Geometry>
 #include <atomic>
 #include <cstdint>
+#include <functional>
 #include <limits>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <vector>
 
 #include "answers.h"
 #include "concave_distance/scene/scene_tracker.h"
+#include "nearest_row.h"
 #include "pose_arrays.h"
 #include "python_scene.h"
 
@@ -27,6 +30,8 @@ class PythonSceneTracker {
   PythonSceneTracker(ScenePointer scene, std::uint32_t threads);
 
   SceneAnswers update(const pybind11::object& poses, double time, bool niches);
+  /// The nearest pair at each of many states, beside what is tracked.
+  std::vector<NearestRow> nearest(const pybind11::object& poses);
   void restart();
   const ScenePointer& scene() const { return scene_; }
 
@@ -39,13 +44,21 @@ class PythonSceneTracker {
 
  private:
   void requireLater(double time) const;
-  std::vector<std::optional<Eigen::Isometry3d>> bodyPoses(const std::vector<GivenPose>& given) const;
+  /// Lets signals end a cycle that may be long: a first one, and one after a long one. Another thread for
+  /// each short one would cost more than it.
+  void runCycle(const std::function<void()>& work);
+  /// Takes one pose for each body from here on. @throws Error naming the body
+  std::vector<std::optional<Eigen::Isometry3d>> bodyPoses(const GivenPose* given) const;
 
   ScenePointer scene_;
   std::mutex mutex_;
   std::atomic<bool> stop_ = false;
+  const std::uint32_t threads_;
   SceneTracker tracker_;
+  std::unique_ptr<SceneTracker> query_tracker_;  ///< of nearest(); nullptr before the first call
+  double query_time_ = 0.0;
   Cycle cycle_;
+  bool may_be_long_ = true;
 };
 
 }  // namespace concave_distance::python

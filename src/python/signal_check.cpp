@@ -24,7 +24,6 @@ void SignalCheck::operator()() {
 }
 
 void runWatched(const std::function<void()>& work, std::atomic<bool>& stop) {
-  stop = false;
   std::future<void> done = std::async(std::launch::async, work);
   while (done.wait_for(kBetweenChecks) != std::future_status::ready) {
     try {
@@ -32,6 +31,7 @@ void runWatched(const std::function<void()>& work, std::atomic<bool>& stop) {
     } catch (...) {
       stop = true;
       done.wait();
+      stop = false;
       throw;
     }
   }

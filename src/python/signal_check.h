@@ -17,7 +17,8 @@ class SignalCheck {
 };
 
 /// Runs work in a thread of its own while this one, without the interpreter's lock, waits and looks for
-/// signals. A signal's exception sets `stop`, which the work is to obey, and is thrown when it has ended.
+/// signals. A signal's exception sets `stop`, which the work is to obey, until the work has ended, and is
+/// thrown then.
 void runWatched(const std::function<void()>& work, std::atomic<bool>& stop);
 
 }  // namespace concave_distance::python

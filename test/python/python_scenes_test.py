@@ -92,6 +92,43 @@ class Scenes(unittest.TestCase):
             self.assertEqual(answers.pairs, ["base/ball"])
             self.assertAlmostEqual(answers.rows["distance"][0], np.hypot(position, 0.7) - 0.15)
 
+    def test_the_nearest_of_many_joint_positions(self):
+        package = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
+        robot = cd.load_robot(os.path.join(package, "urdf", "kr5.urdf"), strict=True,
+                              mesh_folders=[os.path.join(package, "meshes")])
+        positions = np.random.default_rng(5).uniform(-1.5, 1.5, (100, len(robot.position_names)))
+        poses = robot.poses_of_bodies(positions)
+        tracker, one_by_one = cd.SceneTracker(robot), cd.SceneTracker(robot)
+        rows = tracker.nearest(poses)
+        self.assertEqual(rows.shape, (100,))
+        for step, row in enumerate(rows):
+            answers = one_by_one.update(poses[step], step, niches_wanted=False)
+            least = np.nanmin(answers.rows["distance"])
+            self.assertAlmostEqual(row["distance"], least, delta=1e-12)
+            self.assertTrue(row["is_minimum"])
+            self.assertLessEqual(row["lower_bound"], least)
+            self.assertGreaterEqual(row["lower_bound"], least - 1e-9)
+            if least == 0.0:
+                self.assertEqual(row["status"], cd.Status.PENETRATING)
+                continue
+            pair = "/".join(robot.body_names[row[body]] for body in ("body_a", "body_b"))
+            self.assertAlmostEqual(answers.rows["distance"][answers.pairs.index(pair)], least, delta=1e-12)
+            self.assertAlmostEqual(np.linalg.norm(row["point_b"] - row["point_a"]), least, delta=1e-9)
+            np.testing.assert_allclose(row["point_a"] + least * row["normal"], row["point_b"], atol=1e-7)
+        self.assertGreater(np.count_nonzero(rows["distance"]), 20)
+        poses[3, 1] = np.nan
+        unknown = tracker.nearest(poses[:4])
+        self.assertEqual(unknown["is_minimum"].tolist()[:3], [True] * 3)
+        self.assertTrue(unknown["distance"][3] == 0.0 or not unknown["is_minimum"][3])
+        self.assertEqual(tracker.nearest(np.zeros((0, len(robot.body_names), 7))).size, 0)
+
+    def test_the_nearest_beyond_a_cutoff_has_a_bound(self):
+        scene = cd.load_scene(self.write("scene.yaml", SCENE), cache="off", cutoff=1.0)
+        row = cd.SceneTracker(scene).nearest([[[0.0, 0, 0, 0, 0, 0, 1], [5.0, 0, 0, 0, 0, 0, 1]]])[0]
+        self.assertTrue(np.isnan(row["distance"]))
+        self.assertTrue(1.0 < row["lower_bound"] <= 4.5)
+        self.assertEqual((row["body_a"], row["is_minimum"]), (-1, False))
+
     def test_a_signal_ends_a_cycle(self):
         class Alarm(Exception):
             pass
@@ -104,19 +141,24 @@ class Scenes(unittest.TestCase):
                   for index in range(40)]
         pairs = ["  - {{between: [b{}, b{}]}}".format(a, b) for a in range(40) for b in range(a)]
         text = "bodies:\n" + "\n".join(bodies) + "\npairs:\n" + "\n".join(pairs) + "\n"
-        tracker = cd.SceneTracker(cd.load_scene(self.write("many.yaml", text), strict=True), threads=1)
+        scene = cd.load_scene(self.write("many.yaml", text), strict=True)
+        tracker = cd.SceneTracker(scene, threads=1)
         poses = np.tile([0.0, 0, 0, 0, 0, 0, 1], (40, 1))
         poses[:, :3] = 0.7 * np.argwhere(np.ones((4, 4, 3)))[:40]
+        many = np.tile(poses, (1000, 1, 1))
+        many[:, 0, 0] += 0.01 * np.arange(1000)
         before = signal.signal(signal.SIGALRM, ring)
         try:
-            signal.setitimer(signal.ITIMER_REAL, 0.15)
-            with self.assertRaises(Alarm):
-                tracker.update(poses, 0.0)
+            for time, call in enumerate((lambda: tracker.update(poses, 0.0), lambda: tracker.nearest(many))):
+                signal.setitimer(signal.ITIMER_REAL, 0.15)
+                with self.assertRaises(Alarm):
+                    call()
+                for again in (0.3, 0.6):
+                    states = tracker.update(poses, time + again, niches_wanted=False).states
+                    self.assertEqual(set(states), {cd.PairState.SOLVED})
         finally:
             signal.setitimer(signal.ITIMER_REAL, 0.0)
             signal.signal(signal.SIGALRM, before)
-        states = tracker.update(poses, 1.0, niches_wanted=False).states
-        self.assertEqual(set(states), {cd.PairState.SOLVED})
 
     def test_errors(self):
         scene = cd.load_scene(self.write("scene.yaml", SCENE), cache="off")
@@ -131,6 +173,9 @@ class Scenes(unittest.TestCase):
                 ("load_scene", "'margin_a'", lambda: cd.load_scene(wrong, margin_a=0.1)),
                 ("poses", "1 for 2", lambda: cd.SceneTracker(scene).update(np.eye(4), 0.0)),
                 ("poses", "'far'", lambda: cd.SceneTracker(scene).update(no_pose, 0.0)),
+                ("poses", "'far'", lambda: cd.SceneTracker(scene).nearest(no_pose[None])),
+                ("poses", "2 for 2", lambda: cd.SceneTracker(scene).nearest(no_pose)),
+                ("poses", "(1, 1, 2, 7)", lambda: cd.SceneTracker(scene).nearest(no_pose[None, None])),
                 ("positions", "(3, 2)", lambda: robot.poses_of_bodies(np.zeros((3, 2)))),
                 ("", "finite", lambda: robot.poses_of_bodies([np.nan]))):
             with self.subTest(where=where, what=what):
