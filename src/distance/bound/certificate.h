@@ -20,12 +20,15 @@ struct CertificateRequest {
   double absolute_tolerance = 0.0;  ///< metres: the bound may stay this far below the distance
   double relative_tolerance = 0.0;  ///< of the distance less the margin; the larger of the two counts
   double margin = 0.0;              ///< metres, of both bodies together
+  /// Metres: a larger bound is not asked for.
+  double far_enough = std::numeric_limits<double>::infinity();
   /// The proof stops with the bound that it has when this is reached; nullptr is no limit.
   WorkLimit* limit = nullptr;
 
   /// How far below a distance its bound may stay, metres.
   double toleranceAt(double distance) const {
-    return std::max(absolute_tolerance, relative_tolerance * std::max(0.0, distance - margin));
+    return std::max(
+        {absolute_tolerance, relative_tolerance * std::max(0.0, distance - margin), distance - far_enough});
   }
 };
 
