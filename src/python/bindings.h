@@ -24,5 +24,9 @@ void bindScenes(pybind11::module_& module);
 void bindSceneTracker(pybind11::module_& module);
 /// ConstraintRows and Constraints. After bindSceneTracker().
 void bindRows(pybind11::module_& module);
+/// Clearance. After bindAnswers().
+void bindClearanceResult(pybind11::module_& module);
+/// find_clearance, find_clearance_of_body. After bindScenes() and bindClearanceResult().
+void bindClearance(pybind11::module_& module);
 
 }  // namespace concave_distance::python

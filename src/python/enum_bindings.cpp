@@ -2,6 +2,7 @@
 #include <vector>
 
 #include "bindings.h"
+#include "concave_distance/kinematics/clearance.h"
 #include "concave_distance/kinematics/constraint_rows.h"
 #include "concave_distance/scene/tracked_pair.h"
 #include "concave_distance/tracking/pair_solution.h"
@@ -62,6 +63,16 @@ void bindEnums(py::module_& module) {
        {"CROSSED_SHELLS", SignedState::CrossedShells},
        {"NO_CLOSED_FORM", SignedState::NoClosedForm},
        {"UNFINISHED", SignedState::Unfinished}});
+  bindEnum<ClearanceStatus>(
+      module, "ClearanceStatus",
+      "What is known of the clearance of a motion.\n\n"
+      "OK: lower_bound is within the tolerance of the distance. PENETRATING: bodies touch or "
+      "overlap at `time`. BUDGET_EXHAUSTED: a limit was reached first, lower_bound holds. "
+      "NO_PAIRS: the motion moves no watched pair.",
+      {{"OK", ClearanceStatus::Ok},
+       {"PENETRATING", ClearanceStatus::Penetrating},
+       {"BUDGET_EXHAUSTED", ClearanceStatus::BudgetExhausted},
+       {"NO_PAIRS", ClearanceStatus::NoPairs}});
   bindEnum<SlotState>(
       module, "SlotState",
       "What a slot of constraint rows has: column `state`.\n\n"

@@ -12,6 +12,8 @@ PYBIND11_MODULE(_concave_distance, module) {
   bindScenes(module);
   bindSceneTracker(module);
   bindRows(module);
+  bindClearanceResult(module);
+  bindClearance(module);
   for (const auto& entry : py::dict(module.attr("__dict__"))) {
     if (PyType_Check(entry.second.ptr()) != 0) entry.second.attr("__module__") = "concave_distance";
   }

@@ -7,6 +7,8 @@ with ROS are in concave_distance.msg and concave_distance.srv.
 __all__ = [
     "Answers",
     "BodyMesh",
+    "Clearance",
+    "ClearanceStatus",
     "ConstraintRows",
     "Constraints",
     "Error",
@@ -22,6 +24,8 @@ __all__ = [
     "SignedState",
     "SlotState",
     "Status",
+    "find_clearance",
+    "find_clearance_of_body",
     "load_body",
     "load_robot",
     "load_scene",

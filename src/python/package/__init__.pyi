@@ -1,5 +1,5 @@
 from enum import IntEnum
-from typing import Any, Dict, List, Mapping, Optional, Sequence, SupportsIndex, Tuple, Union
+from typing import Any, Callable, Dict, List, Mapping, Optional, Sequence, SupportsIndex, Tuple, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -42,6 +42,12 @@ class SignedState(IntEnum):
     CROSSED_SHELLS = 3
     NO_CLOSED_FORM = 4
     UNFINISHED = 5
+
+class ClearanceStatus(IntEnum):
+    OK = 0
+    PENETRATING = 1
+    BUDGET_EXHAUSTED = 2
+    NO_PAIRS = 3
 
 class SlotState(IntEnum):
     FREE = 0
@@ -244,3 +250,82 @@ class ConstraintRows:
     def reset(self) -> None: ...
     @property
     def scene(self) -> Scene: ...
+
+class Clearance:
+    @property
+    def status(self) -> ClearanceStatus: ...
+    @property
+    def distance(self) -> float: ...
+    @property
+    def lower_bound(self) -> float: ...
+    @property
+    def time(self) -> float: ...
+    @property
+    def bodies(self) -> Optional[Tuple[str, str]]: ...
+    @property
+    def point_a(self) -> NDArray[np.float64]: ...
+    @property
+    def point_b(self) -> NDArray[np.float64]: ...
+    @property
+    def world_from_a(self) -> NDArray[np.float64]: ...
+    @property
+    def solution(self) -> Optional[Answers]: ...
+    @property
+    def first_below(self) -> float: ...
+    @property
+    def first_below_bodies(self) -> Optional[Tuple[str, str]]: ...
+    @property
+    def proven_until(self) -> float: ...
+    @property
+    def pairs(self) -> NDArray[np.void]: ...
+    @property
+    def not_located(self) -> List[str]: ...
+    @property
+    def outside_limits(self) -> List[str]: ...
+    @property
+    def velocities_ignored(self) -> bool: ...
+    @property
+    def queries(self) -> int: ...
+    @property
+    def box_queries(self) -> int: ...
+    @property
+    def seconds(self) -> float: ...
+
+def find_clearance(
+    scene: Scene,
+    positions: ArrayLike,
+    times: Optional[ArrayLike] = None,
+    *,
+    velocities: Optional[ArrayLike] = None,
+    accelerations: Optional[ArrayLike] = None,
+    joints: Optional[Sequence[str]] = None,
+    start: Optional[ArrayLike] = None,
+    roots: Optional[ArrayLike] = None,
+    bodies: Optional[ArrayLike] = None,
+    tolerance: float = 0.001,
+    threshold: Optional[float] = None,
+    time_budget: Optional[float] = None,
+    sample_limit: int = 2000000,
+    each_pair: bool = False,
+    niches: bool = False,
+    threads: int = 0,
+    progress: Optional[Callable[[float, float, float, int], object]] = None,
+) -> Clearance: ...
+def find_clearance_of_body(
+    scene: Scene,
+    body: str,
+    poses: ArrayLike,
+    times: Optional[ArrayLike] = None,
+    *,
+    start: Optional[ArrayLike] = None,
+    roots: Optional[ArrayLike] = None,
+    bodies: Optional[ArrayLike] = None,
+    tolerance: float = 0.001,
+    threshold: Optional[float] = None,
+    time_budget: Optional[float] = None,
+    sample_limit: int = 2000000,
+    each_pair: bool = False,
+    niches: bool = False,
+    threads: int = 0,
+    progress: Optional[Callable[[float, float, float, int], object]] = None,
+) -> Clearance: ...
