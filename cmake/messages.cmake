@@ -10,6 +10,7 @@ set(CONCAVE_DISTANCE_MESSAGES
   DistanceQuery.msg
   Distances.msg
   GroupInfo.msg
+  GuardState.msg
   Nearest.msg
   Niche.msg
   NicheChange.msg
@@ -26,6 +27,7 @@ set(CONCAVE_DISTANCE_MESSAGES
   SceneOperation.msg
   SimulationState.msg
   SolveCost.msg
+  UnlistedPair.msg
 )
 set(CONCAVE_DISTANCE_SERVICES
   AddBody.srv

@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
 # Shows the package at work: installs what is missing, builds, starts a scene, prints what it measures.
-#   scripts/demo.sh [insertion|contact|simulation|robot|interactive|cell|crowd] [--seconds N] [--headless]
+#   scripts/demo.sh [insertion|contact|simulation|robot|interactive|cell|crowd|rows] [--seconds N] [--headless]
 #   insertion (default): a battery goes into its fixture; robot: an arm moves beside a shelf and a hook;
 #   contact: a battery presses on its pins; simulation: a body on two feet falls and bounces; interactive: move a body
 #   with the mouse; cell: an arm among 30 boxes picks a part, carries it past a shelf and puts it down; crowd: 200 moving
-#   bodies. In rviz when there is a display, as printed lines in any case.
+#   bodies; rows: a C-shaped tool goes around a table's edge, kept clear at every place, then at the nearest one only. In
+#   rviz when there is a display, as printed lines in any case.
 #   Ends with Ctrl-C, or by itself after N seconds (status 1 when no distance came).
 set -euo pipefail
 # shellcheck source=scripts/common.sh
@@ -15,14 +16,14 @@ seconds=0
 headless=
 while [ $# -gt 0 ]; do
   case "$1" in
-    insertion | contact | simulation | robot | interactive | cell | crowd) scene="$1" ;;
+    insertion | contact | simulation | robot | interactive | cell | crowd | rows) scene="$1" ;;
     --seconds)
       [[ "${2:-}" =~ ^[1-9][0-9]*$ ]] || die "--seconds needs a whole number of seconds, not '${2:-}'"
       seconds="$2" && shift
       ;;
     --headless) headless=1 ;;
     -h | --help) sed -n '2,/^set/s/^# \{0,1\}//p' "${BASH_SOURCE[0]}" && exit 0 ;;
-    *) die "unknown argument '$1': expected insertion, contact, simulation, robot, interactive, cell, crowd, --seconds N or --headless" ;;
+    *) die "unknown argument '$1': expected insertion, contact, simulation, robot, interactive, cell, crowd, rows, --seconds N or --headless" ;;
   esac
   shift
 done

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Writes meshes/demo/*.stl: the concave things of the robot and the interactive scene.
+"""Writes meshes/demo/*.stl: the concave things of the robot, the interactive and the rows scene.
 
     scripts/generate_demo_geometry.py [package folder]
 
@@ -18,8 +18,8 @@ def main():
         os.path.dirname(os.path.abspath(__file__)))
     folder = os.path.join(root, "meshes", "demo")
     os.makedirs(folder, exist_ok=True)
-    for make in (demo_solids.comb, demo_solids.crane, demo_solids.eye, demo_solids.hook, demo_solids.pipe,
-                 demo_solids.shelf, demo_solids.vase):
+    for make in (demo_solids.clamp, demo_solids.comb, demo_solids.crane, demo_solids.eye, demo_solids.hook,
+                 demo_solids.pipe, demo_solids.shelf, demo_solids.vase):
         vertices, triangles = make()
         name = make.__name__
         write_binary_stl(os.path.join(folder, name + ".stl"), vertices, triangles, f"concave_distance: {name}")

@@ -38,6 +38,7 @@ set -euo pipefail
     python3-roslaunch python3-rospy python3-rosservice python3-rostopic rosbash rviz ros-robot-state-publisher
     python3-rospkg python3-tf2-ros python3-yaml  # scripts/view_robot.py
     python3-sensor-msgs python3-tf2-msgs  # pick_parts.py, move_crowd.py
+    python3-cvxopt python3-numpy python3-rosgraph-msgs  # follow_rows.py
     python3-geometry-msgs python3-shape-msgs python3-std-msgs python3-std-srvs python3-visualization-msgs python3-diagnostic-msgs  # what ours are made of
   )
   debian_plot=(python3-matplotlib python3-yaml valgrind)
@@ -63,6 +64,7 @@ set -euo pipefail
     ros-noetic-roslaunch ros-noetic-rospy ros-noetic-rosservice ros-noetic-rostopic ros-noetic-rosbash ros-noetic-rviz
     ros-noetic-robot-state-publisher ros-noetic-tf2-msgs
     python3-rospkg python3-yaml  # scripts/view_robot.py
+    python3-cvxopt python3-numpy  # follow_rows.py
   )
   noetic_plot=(python3-matplotlib python3-yaml valgrind)
   noetic_format=(clang-format)

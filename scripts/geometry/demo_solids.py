@@ -135,3 +135,21 @@ def comb():
                (-0.13, 0.14), (-0.17, 0.14), (-0.19, 0.05), (-0.25, 0.05), (-0.27, 0.19), (-0.32, 0.19)]
     outline = subdivide(round_corners(outline, 0.012, 5), 0.03)
     return extrude_along_y("comb", outline, np.linspace(-0.06, 0.06, 13), triangulate_polygon)
+
+
+def clamp_outline():
+    """The outline of `clamp` in (x, z)."""
+    outline = np.array([(0.34, -0.025), (0.34, 0.025), (0.16, 0.03), (0.145, 0.078), (-0.02, 0.068), (-0.02, 0.026),
+                        (0.012, 0.026), (0.024, 0.042), (0.11, 0.042),
+                        (0.11, -0.042), (0.024, -0.042), (0.012, -0.026), (-0.02, -0.026), (-0.02, -0.068), (0.145, -0.078),
+                        (0.16, -0.03)])
+    radii = [0.008, 0.008, 0.02, 0.02, 0.008, 0.006, 0.004, 0.008, 0.02, 0.02, 0.008, 0.004, 0.006, 0.008, 0.02, 0.02]
+    return round_corners(outline, radii, 6)
+
+
+def clamp():
+    """A C-shaped tool: two jaws with a pad each around a mouth 0.052 m high and 0.13 m deep, and a shank behind.
+
+    Frame: between the pads, from which the tool reaches to x = 0.34; the mouth opens to -x, the jaws lie above and
+    below (z). It is 0.06 m wide (y)."""
+    return extrude_along_y("clamp", clamp_outline(), np.linspace(-0.03, 0.03, 2), triangulate_polygon)

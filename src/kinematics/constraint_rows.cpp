@@ -10,6 +10,7 @@
 #include "concave_distance/tracking/niche_gradient.h"
 #include "niche_places.h"
 #include "slot_table.h"
+#include "unlisted_search.h"
 
 namespace concave_distance {
 namespace {
@@ -18,6 +19,7 @@ using detail::NichePlace;
 using detail::SlotRequest;
 
 constexpr std::uint32_t kLargestCapacity = 100'000;
+constexpr double kLargestTilt = 0.5;       // rad
 constexpr double kLeavesAt = 1.05;         // of the distance: a niche at its edge does not come and go
 constexpr std::size_t kUsualRequests = 8;  // for each slot
 
@@ -25,6 +27,16 @@ Vector6d twistAt(const RelativeTwist& twist, const Eigen::Vector3d& point) {
   Vector6d values;
   values << twist.at(point), twist.angular;
   return values;
+}
+
+/// Returns whether a value does not go on from that of the slot's last row: regions of overlap have merged or
+/// split, or the value that there was is not known now.
+bool hasJumped(const TrackedPair& pair, const TrackedNiche& niche, const NichePlace& place,
+               const ConstraintRow& last) {
+  if (pair.repeated) return false;
+  const SignedPlace& signed_place = niche.signed_place;
+  if (signed_place.state == SignedState::Known) return signed_place.since_cycle == pair.solution.cycle;
+  return place.is_overlapping && last.state == SlotState::Used && last.value < 0.0;
 }
 
 }  // namespace
@@ -57,13 +69,14 @@ struct ConstraintRows::Parts {
   std::shared_ptr<const SceneKinematics> joints;
   ConstraintSettings settings;
   detail::SlotTable table;
-  detail::NichePlaces places;
+  detail::NichePlaces places{settings.tilt};
   detail::CarrierMotion carriers;
   std::vector<Candidate> candidates;
   std::vector<SlotRequest> requests;  ///< of the candidates
   std::vector<ConstraintRow> rows;
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> jacobian;
   std::size_t overflow = 0;
+  detail::UnlistedSearch unlisted;
 };
 
 ConstraintRows::ConstraintRows(std::shared_ptr<const SceneKinematics> joints, ConstraintSettings settings) {
@@ -72,6 +85,10 @@ ConstraintRows::ConstraintRows(std::shared_ptr<const SceneKinematics> joints, Co
   }
   if (settings.capacity == 0 || settings.capacity > kLargestCapacity) {
     throw Error("constraint_capacity", "it is " + std::to_string(settings.capacity), "allowed: 1 to 100000");
+  }
+  if (!(settings.tilt > 0.0) || settings.tilt > kLargestTilt) {
+    throw Error("constraint_tilt", "it is " + numberText(settings.tilt),
+                "give radians, more than 0, at most 0.5");
   }
   parts_ = std::make_unique<Parts>(std::move(joints), settings);
 }
@@ -100,6 +117,12 @@ const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>& Co
 std::size_t ConstraintRows::overflow() const {
   return parts_->overflow;
 }
+const std::vector<UnlistedPlaces>& ConstraintRows::unlisted() const {
+  return parts_->unlisted.found();
+}
+const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>& ConstraintRows::reach() const {
+  return parts_->unlisted.reach();
+}
 const SceneKinematics& ConstraintRows::joints() const {
   return *parts_->joints;
 }
@@ -118,6 +141,13 @@ void ConstraintRows::update(const SceneTracker::Pairs& pairs, const SceneState& 
   parts.carriers.update(*parts.joints, state, time);
   parts.collect(pairs, state);
   parts.overflow = parts.table.assign(parts.requests);
+  for (std::size_t i = 0; i < parts.requests.size(); ++i) {
+    const std::size_t slot = parts.requests[i].slot;
+    if (slot == SlotRequest::kNone) continue;
+    const Parts::Candidate& candidate = parts.candidates[i];
+    if (hasJumped(*pairs[candidate.pair], *candidate.niche, candidate.place, parts.rows[slot]))
+      parts.table.renew(slot);
+  }
   parts.jacobian.setZero();
   for (std::size_t slot = 0; slot < parts.rows.size(); ++slot) {
     parts.rows[slot] = ConstraintRow();
@@ -127,6 +157,13 @@ void ConstraintRows::update(const SceneTracker::Pairs& pairs, const SceneState& 
     if (parts.requests[i].slot == SlotRequest::kNone) continue;
     const Parts::Candidate& candidate = parts.candidates[i];
     parts.write(parts.requests[i], candidate, pairs[candidate.pair], state);
+  }
+  parts.unlisted.begin(*parts.joints, state, parts.carriers, parts.settings.distance);
+  parts.unlisted.addPairs(pairs);
+  for (std::size_t i = 0; i < parts.requests.size(); ++i) {
+    const SlotRequest& request = parts.requests[i];
+    if (request.slot != SlotRequest::kNone || !request.may_begin) continue;
+    parts.unlisted.addWithoutSlot(pairs[parts.candidates[i].pair], request.distance);
   }
 }
 
@@ -183,10 +220,10 @@ void ConstraintRows::Parts::write(const SlotRequest& request, const Candidate& c
   addMotion(b, state, row.point_b, row.normal, 1.0, index);
   const std::optional<RelativeTwist>& with_a = carriers.of(*joints, a);
   const std::optional<RelativeTwist>& with_b = carriers.of(*joints, b);
-  if (!with_a || !with_b) return;
   const DistanceGradient gradient = gradientOf(row.normal, row.point_a, row.point_b, row.point_a);
-  row.drift =
-      -gradient.by_a.dot(twistAt(*with_a, row.point_a)) - gradient.by_b.dot(twistAt(*with_b, row.point_a));
+  if (with_a) row.drift_a = -gradient.by_a.dot(twistAt(*with_a, row.point_a));
+  if (with_b) row.drift_b = -gradient.by_b.dot(twistAt(*with_b, row.point_a));
+  row.drift = row.drift_a + row.drift_b;
 }
 
 void ConstraintRows::Parts::addMotion(std::size_t body, const SceneState& state, const Eigen::Vector3d& point,

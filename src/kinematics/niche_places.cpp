@@ -8,16 +8,16 @@
 namespace concave_distance::detail {
 namespace {
 
-/// Heights within this share of the smaller body are level: two faces of its size may be tilted by as many
-/// radians.
-constexpr double kLevelShare = 1e-4;
 /// A place that is level within that, but not within rounding, has corners where it is longer than this
 /// share: a shorter one moves a niche's points by so little, and small facets of a curved surface are always
 /// level.
 constexpr double kLeastShare = 0.05;
-/// Triangle pairs that are looked at where the cycle has found a point, or a segment or patch.
+/// Triangle pairs, and triangles around their corners, that are looked at where the cycle has found a point,
+/// or a segment or patch: at most 0.1 ms, or 1 ms.
 constexpr std::size_t kPairLimitOfPoints = 256;
 constexpr std::size_t kPairLimitOfSets = 4096;
+constexpr std::size_t kRingLimitOfPoints = 2048;
+constexpr std::size_t kRingLimitOfSets = 16'384;
 /// The points of a niche are no place of their own where a corner is as near, to this share of the bodies.
 constexpr double kSameDistance = 1e-12;
 
@@ -49,9 +49,9 @@ const std::vector<NichePlace>& NichePlaces::of(const TrackedPair& pair, const Tr
     const double size = std::min(a.diameter(), b.diameter());
     const bool is_point = niche.kind == NicheKind::Point;
     const auto find = a.shape() != nullptr || b.shape() != nullptr ? findRoundCorners : findCorners;
-    count = find(a, b, pair.solution.a_from_b, niche.witness, kLevelShare * size,
+    count = find(a, b, pair.solution.a_from_b, niche.witness, tilt_ * size,
                  is_point ? kLeastShare * size : 0.0, is_point ? kPairLimitOfPoints : kPairLimitOfSets,
-                 workspace_, corners);
+                 is_point ? kRingLimitOfPoints : kRingLimitOfSets, workspace_, corners);
   }
   const TrackerParameters& parameters = pair.settings.tracker;
   const double bare = std::sqrt(niche.witness.squared_distance);

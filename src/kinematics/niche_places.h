@@ -21,10 +21,13 @@ struct NichePlace {
 /// points too where they are nearer than every corner. The one source of signed values of rows.
 class NichePlaces {
  public:
+  /// @param tilt ConstraintSettings::tilt
+  explicit NichePlaces(double tilt) : tilt_(tilt) {}
   /// @param pair solved, with this niche
   const std::vector<NichePlace>& of(const TrackedPair& pair, const TrackedNiche& niche);
 
  private:
+  double tilt_;
   CornerWorkspace workspace_;
   std::vector<NichePlace> places_;
 };

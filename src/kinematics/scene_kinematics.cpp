@@ -52,6 +52,7 @@ SceneKinematics::SceneKinematics(const Scene& scene) : rigid_(scene.rigid) {
     frame_from_body_.push_back(body.frame_from_body);
     frames_.push_back(body.frame);
     serials_.push_back(body.serial);
+    names_.push_back(body.name);
   }
 }
 

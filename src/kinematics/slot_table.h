@@ -50,6 +50,8 @@ class SlotTable {
   /// One cycle. @return how many requests that may begin have no slot
   std::size_t assign(std::vector<SlotRequest>& requests);
   void clear();
+  /// Lets a used slot's state begin in this cycle.
+  void renew(std::size_t slot) { slots_[slot].since = cycle_; }
   const std::vector<Slot>& slots() const { return slots_; }
   std::uint64_t cycle() const { return cycle_; }
   /// Returns whether a niche has a slot.

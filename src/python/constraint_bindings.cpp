@@ -41,6 +41,17 @@ struct SlotRow {
   Triple point_a_in_frame = kUnknownPoint;
   Triple point_b_in_frame = kUnknownPoint;
   double drift = kNotComputed;
+  double drift_a = kNotComputed;
+  double drift_b = kNotComputed;
+};
+
+/// A row of Constraints.unlisted: UnlistedPlaces.
+struct UnlistedRow {
+  std::uint8_t reason;  ///< UnlistedReason
+  std::int64_t body_a = kNoBody;
+  std::int64_t body_b = kNoBody;
+  double lower_bound;
+  double drift;
 };
 
 /// Python has this as Constraints: the rows of one cycle.
@@ -50,9 +61,23 @@ struct Constraints {
   std::vector<SlotRow> rows;
   std::vector<std::string> pairs;
   std::vector<double> jacobian;  ///< row by row
+  std::vector<UnlistedRow> unlisted;
+  std::vector<double> reach;  ///< row by row
   std::size_t velocity_count;
   std::size_t overflow;
 };
+
+UnlistedRow unlistedRow(const UnlistedPlaces& places) {
+  UnlistedRow row{static_cast<std::uint8_t>(places.reason), kNoBody, kNoBody, places.lower_bound,
+                  places.drift};
+  if (places.pair) {
+    row.body_a = static_cast<std::int64_t>(places.pair->origin->body_a);
+    row.body_b = static_cast<std::int64_t>(places.pair->origin->body_b);
+  } else {
+    row.body_a = static_cast<std::int64_t>(places.body);
+  }
+  return row;
+}
 
 SlotRow slotRow(const ConstraintRow& row) {
   SlotRow copied;
@@ -72,25 +97,29 @@ SlotRow slotRow(const ConstraintRow& row) {
   copied.point_a_in_frame = tripleOf(row.point_a_in_frame);
   copied.point_b_in_frame = tripleOf(row.point_b_in_frame);
   copied.drift = row.drift;
+  copied.drift_a = row.drift_a;
+  copied.drift_b = row.drift_b;
   return copied;
 }
 
 Constraints::Constraints(const ConstraintRows& made)
     : jacobian(made.jacobian().data(), made.jacobian().data() + made.jacobian().size()),
+      reach(made.reach().data(), made.reach().data() + made.reach().size()),
       velocity_count(static_cast<std::size_t>(made.jacobian().cols())),
       overflow(made.overflow()) {
   for (const ConstraintRow& row : made.rows()) {
     rows.push_back(slotRow(row));
     pairs.push_back(row.pair ? row.pair->origin->name : std::string());
   }
+  for (const UnlistedPlaces& places : made.unlisted()) unlisted.push_back(unlistedRow(places));
 }
 
 /// Python has this as ConstraintRows: usable from any thread, one at a time.
 class PythonRows {
  public:
-  PythonRows(ScenePointer scene, double distance, std::uint32_t capacity)
+  PythonRows(ScenePointer scene, double distance, std::uint32_t capacity, double tilt)
       : scene_(std::move(scene)),
-        rows_(scene_->joints, {distance, capacity}),
+        rows_(scene_->joints, {distance, capacity, tilt}),
         state_(scene_->joints->startState()) {}
 
   Constraints update(PythonSceneTracker& tracker, const py::object& positions, const py::object& roots) {
@@ -146,16 +175,17 @@ const Constraints& constraintsIn(const py::object& self) {
   return *self.cast<const Constraints*>();
 }
 
-py::array_t<double> jacobianOf(const py::object& self) {
-  const Constraints& made = constraintsIn(self);
-  const std::vector<py::ssize_t> shape = {static_cast<py::ssize_t>(made.rows.size()),
-                                          static_cast<py::ssize_t>(made.velocity_count)};
-  return py::array_t<double>(shape, made.jacobian.data(), self);
+// A matrix with a column for each velocity.
+py::array_t<double> matrixOf(const std::vector<double>& numbers, std::size_t rows, const py::object& self) {
+  const std::vector<py::ssize_t> shape = {static_cast<py::ssize_t>(rows),
+                                          static_cast<py::ssize_t>(constraintsIn(self).velocity_count)};
+  return py::array_t<double>(shape, numbers.data(), self);
 }
 
 void bindConstraints(py::module_& module) {
   PYBIND11_NUMPY_DTYPE(SlotRow, state, is_overlapping, body_a, body_b, niche_id, age, value, lower_bound,
-                       normal, point_a, point_b, point_a_in_frame, point_b_in_frame, drift);
+                       normal, point_a, point_b, point_a_in_frame, point_b_in_frame, drift, drift_a, drift_b);
+  PYBIND11_NUMPY_DTYPE(UnlistedRow, reason, body_a, body_b, lower_bound, drift);
   py::class_<Constraints>(
       module, "Constraints",
       "The rows of one cycle. A velocity of the joints changes the values of the used ones by "
@@ -164,23 +194,37 @@ void bindConstraints(py::module_& module) {
       .def_property_readonly(
           "rows", [](const py::object& self) { return viewOf(constraintsIn(self).rows, self); },
           "(capacity,) with the columns state (SlotState; the others hold where it is USED), is_overlapping "
-          "(value is "
-          "0 "
-          "and in truth less), body_a, body_b (places in Scene.body_names), niche_id (of the pair), age "
+          "(value "
+          "is 0 and in truth less), body_a, body_b (places in Scene.body_names), niche_id (of the pair), age "
           "(cycles "
-          "since "
-          "the row has its slot), value (signed distance, metres), lower_bound (proven: no place of the pair "
-          "is "
-          "nearer), normal (3; from A to B), point_a (3), point_b (3) in the world, point_a_in_frame (3), "
-          "point_b_in_frame (3) in the frames of the bodies: their links, drift (m/s, positive when "
-          "approaching: "
-          "what "
-          "no joint does).")
+          "since the row has its slot, or its signed value has jumped), value (signed distance, metres), "
+          "lower_bound "
+          "(proven: no place of the pair is nearer), normal (3; from A to B), point_a (3), point_b (3) in "
+          "the world, "
+          "point_a_in_frame (3), point_b_in_frame (3) in the frames of the bodies: their links, drift (m/s, "
+          "positive "
+          "when approaching: what no joint does), drift_a, drift_b (its parts, of A's and B's carriers).")
       .def_property_readonly(
-          "jacobian", &jacobianOf,
+          "jacobian",
+          [](const py::object& self) {
+            return matrixOf(constraintsIn(self).jacobian, constraintsIn(self).rows.size(), self);
+          },
           "(capacity, v) metres per rad or m: rate of each value by Scene.velocity_names; zero "
           "where the slot is not USED.")
       .def_readonly("pairs", &Constraints::pairs, "Name of the pair of each slot, '' where it is not USED.")
+      .def_property_readonly(
+          "unlisted", [](const py::object& self) { return viewOf(constraintsIn(self).unlisted, self); },
+          "(u,) pairs of which places within the distance may have no row, with the columns reason "
+          "(UnlistedReason), "
+          "body_a, body_b (-1 with NO_POSE: all pairs of body_a), lower_bound (metres: none of them is "
+          "nearer; NaN: "
+          "they can be anywhere), drift (m/s, at most; NaN: not known).")
+      .def_property_readonly(
+          "reach",
+          [](const py::object& self) {
+            return matrixOf(constraintsIn(self).reach, constraintsIn(self).unlisted.size(), self);
+          },
+          "(u, v): a place of `unlisted` comes nearer by at most reach @ abs(velocities) + drift, m/s.")
       .def_readonly("overflow", &Constraints::overflow, "How many rows have no slot: the farthest.");
 }
 
@@ -188,17 +232,18 @@ void bindConstraints(py::module_& module) {
 
 void bindRows(py::module_& module) {
   bindConstraints(module);
-  py::class_<PythonRows>(
-      module, "ConstraintRows",
-      "Rows for controllers: for every niche within a distance, of pairs that a joint can move, "
-      "how "
-      "its distance changes with the joints of all robots. A row keeps its slot while its niche "
-      "lives. It may be used from any thread; calls wait for each other.")
-      .def(py::init<ScenePointer, double, std::uint32_t>(), py::arg("scene"), py::kw_only(),
+  py::class_<PythonRows>(module, "ConstraintRows",
+                         "Rows for controllers: for every niche within a distance, of pairs that a joint can "
+                         "move, how its distance "
+                         "changes with the joints of all robots. A row keeps its slot while its niche lives. "
+                         "It may be used from any "
+                         "thread; calls wait for each other.")
+      .def(py::init<ScenePointer, double, std::uint32_t, double>(), py::arg("scene"), py::kw_only(),
            py::arg("distance") = ConstraintSettings().distance,
-           py::arg("capacity") = ConstraintSettings().capacity,
+           py::arg("capacity") = ConstraintSettings().capacity, py::arg("tilt") = ConstraintSettings().tilt,
            "distance: metres; niches within it have rows\n"
            "capacity: number of slots; with more rows than that the farthest have none\n"
+           "tilt: radians; edges and faces tilted by less have rows for their corners\n"
            "Raises Error for values that are not positive.")
       .def("update", &PythonRows::update, py::arg("tracker"), py::arg("positions"),
            py::arg("roots") = py::none(),

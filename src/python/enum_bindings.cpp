@@ -73,6 +73,17 @@ void bindEnums(py::module_& module) {
        {"PENETRATING", ClearanceStatus::Penetrating},
        {"BUDGET_EXHAUSTED", ClearanceStatus::BudgetExhausted},
        {"NO_PAIRS", ClearanceStatus::NoPairs}});
+  bindEnum<UnlistedReason>(
+      module, "UnlistedReason",
+      "Why places of a pair may have no row: Constraints.unlisted.\n\n"
+      "NO_POSE: a body has none. UNSOLVED: the pair has no answer. UNFINISHED: its list of niches "
+      "is not proven complete. BEYOND_CUTOFF: its cutoff is less than the rows' distance. NO_SLOT: "
+      "all slots have nearer rows.",
+      {{"NO_POSE", UnlistedReason::NoPose},
+       {"UNSOLVED", UnlistedReason::Unsolved},
+       {"UNFINISHED", UnlistedReason::Unfinished},
+       {"BEYOND_CUTOFF", UnlistedReason::BeyondCutoff},
+       {"NO_SLOT", UnlistedReason::NoSlot}});
   bindEnum<SlotState>(
       module, "SlotState",
       "What a slot of constraint rows has: column `state`.\n\n"

@@ -26,6 +26,11 @@ bool ownsCycle(const TrackedPair& pair) {
 CycleSolver::CycleSolver(std::uint32_t threads, const std::atomic<bool>* stop)
     : is_serial_(threads == 1), stop_(stop), arena_(makeSolverArena(threads)) {}
 
+void CycleSolver::reserve(std::size_t pairs) {
+  pairs_.reserve(pairs);
+  turns_.reserve(pairs);
+}
+
 // Grids and metrics of bodies whose niches are searched for the first time are made together, in parallel.
 void CycleSolver::begin(const std::vector<TrackedPair*>& pairs) {
   helpers_.begin();

@@ -21,6 +21,8 @@ class CycleSolver {
   /// @param stop set: pairs that are left are not solved; nullptr: none
   CycleSolver(std::uint32_t threads, const std::atomic<bool>* stop);
 
+  /// Makes room for so many pairs.
+  void reserve(std::size_t pairs);
   /// Takes the pairs of a cycle, in the order of the scene, and makes what their searches need of the bodies.
   void begin(const std::vector<TrackedPair*>& pairs);
   void solveAll();

@@ -6,16 +6,21 @@
 
 #include <algorithm>
 #include <iterator>
+#include <new>
 #include <system_error>
 #include <utility>
 
 #include "base/helper_threads.h"
+#include "body_preparation.h"
 #include "concave_distance/search/prepare_search.h"
-#include "distance/niches/convex_pair.h"
 #include "mesh/trees/normal_cone_tree.h"
+#include "near_pairs.h"
 
 namespace concave_distance {
 namespace {
+
+/// Triangles of a scene up to which what niches need, some 500 bytes each, is made before anybody asks.
+constexpr std::size_t kMostTrianglesAhead = 1'000'000;
 
 /// Steps of `nice` for the calling thread; without the right to it nothing changes.
 void giveWay() {
@@ -27,15 +32,12 @@ void giveWay() {
 
 PreparationTask::PreparationTask(std::shared_ptr<const BodyMesh> a, std::shared_ptr<const BodyMesh> b,
                                  const TrackerParameters& parameters)
-    : a_(std::move(a)),
-      b_(std::move(b)),
-      keeps_through_material_(parameters.keep_through_material),
-      lists_hidden_(parameters.hidden),
-      is_searched_(parameters.search_share > 0.0) {}
+    : a_(std::move(a)), b_(std::move(b)), parameters_(parameters) {}
 
 bool PreparationTask::suffices(const TrackerParameters& parameters) const {
-  return keeps_through_material_ == parameters.keep_through_material &&
-         (lists_hidden_ || !parameters.hidden) && (is_searched_ || !(parameters.search_share > 0.0));
+  return parameters_.keep_through_material == parameters.keep_through_material &&
+         (parameters_.hidden || !parameters.hidden) &&
+         (parameters_.search_share > 0.0 || !(parameters.search_share > 0.0));
 }
 
 void PreparationTask::makeNiches() {
@@ -53,23 +55,20 @@ void PreparationTask::makeParts() {
   if (!mesh_a || !mesh_b) return;
   const BodyMesh& a = mesh_a->asSolved();
   const BodyMesh& b = mesh_b->asSolved();
-  needs_no_search_ = a.shape() != nullptr && b.shape() != nullptr;
-  if (needs_no_search_) return;
-  for (const BodyMesh* body : {&a, &b}) {
-    body->adjacency();
-    body->pieces();
-    body->hullGap();
+  if (a.shape() == nullptr || b.shape() == nullptr) {
+    makeCommonParts(a);
+    makeCommonParts(b);
   }
-  needs_no_search_ = !keeps_through_material_ && !lists_hidden_ && detail::areConvex(a, b);
-  if (needs_no_search_) return;
-  const NormalSides sides = keeps_through_material_ ? NormalSides::Both : NormalSides::Outside;
+  needs_search_ = needsSearch(a, b, parameters_);
+  if (!needs_search_) return;
+  const NormalSides sides = parameters_.keep_through_material ? NormalSides::Both : NormalSides::Outside;
   runTogether({[&] { a.prepareNiches(sides); }, [&] { b.prepareNiches(sides); }});
 }
 
 void PreparationTask::makeSearch() {
   const std::shared_ptr<const BodyMesh> a = a_.lock();
   const std::shared_ptr<const BodyMesh> b = b_.lock();
-  if (!is_searched_ || needs_no_search_ || !a || !b) return;
+  if (!(parameters_.search_share > 0.0) || !needs_search_ || !a || !b) return;
   try {
     prepareSearch({&a->asSolved(), &b->asSolved()});
   } catch (...) {
@@ -88,8 +87,38 @@ NichePreparation::~NichePreparation() {
   if (thread_.joinable()) thread_.join();
 }
 
-void NichePreparation::add(std::shared_ptr<PreparationTask> task) {
-  add(Entry{std::move(task), false});
+// Many triangles take much memory: they wait until somebody wants their niches, as all do when none is left.
+void NichePreparation::addAhead(const Scene& scene, const std::vector<std::shared_ptr<TrackedPair>>& pairs) {
+  std::size_t triangles = 0;
+  for (const SceneBody& body : scene.bodies) {
+    if (body.mesh) triangles += body.mesh->surface().triangleCount();
+  }
+  if (triangles > kMostTrianglesAhead) return;
+  try {
+    for (const auto& pair : pairs) {
+      if (pair->origin->enabled) isPrepared(*pair);
+    }
+    // Which of the others will be near is not known: each mesh once, as if against itself.
+    const TrackerParameters& parameters = scene.defaults.pairs.tracker;
+    if (!provesDistance(parameters.accuracy)) return;
+    for (const SceneBody& body : scene.bodies) {
+      if (mayBeNear(body)) addAhead(body.mesh, parameters);
+    }
+  } catch (const std::bad_alloc&) {
+    // The scene is tracked already; a cycle that wants the niches tries again.
+  }
+}
+
+bool NichePreparation::isPrepared(TrackedPair& pair) {
+  const TrackerParameters& parameters = pair.settings.tracker;
+  if (!provesDistance(parameters.accuracy)) return true;
+  if (!pair.preparation) {
+    // The pair has it when it is sure to run.
+    auto task = std::make_shared<PreparationTask>(pair.body_a->mesh, pair.body_b->mesh, parameters);
+    add(Entry{task, false});
+    pair.preparation = std::move(task);
+  }
+  return pair.preparation->isDone();
 }
 
 void NichePreparation::add(Entry entry) {

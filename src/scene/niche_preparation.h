@@ -9,8 +9,11 @@
 #include <mutex>
 #include <thread>
 #include <unordered_map>
+#include <vector>
 
 #include "concave_distance/mesh/body_mesh.h"
+#include "concave_distance/scene/scene.h"
+#include "concave_distance/scene/tracked_pair.h"
 #include "concave_distance/tracking/tracker_parameters.h"
 
 namespace concave_distance {
@@ -40,10 +43,8 @@ class PreparationTask {
 
   std::weak_ptr<const BodyMesh> a_;
   std::weak_ptr<const BodyMesh> b_;
-  bool keeps_through_material_;
-  bool lists_hidden_;
-  bool is_searched_;
-  bool needs_no_search_ = false;  ///< being convex, or round
+  TrackerParameters parameters_;
+  bool needs_search_ = true;  ///< needsSearch()
   std::atomic<bool> is_done_{false};
   std::atomic<bool> is_search_done_{false};
 };
@@ -58,11 +59,11 @@ class NichePreparation {
   NichePreparation(const NichePreparation&) = delete;
   NichePreparation& operator=(const NichePreparation&) = delete;
 
-  /// Runs a task of a pair after those that came before, unless the caller has dropped it by then; at once
-  /// where no thread can be had.
-  void add(std::shared_ptr<PreparationTask> task);
-  /// Makes what a mesh needs against any other, once.
-  void addAhead(const std::shared_ptr<const BodyMesh>& mesh, const TrackerParameters& parameters);
+  /// Begins with what the pairs and bodies of a scene will need, if its meshes are not too large for that.
+  void addAhead(const Scene& scene, const std::vector<std::shared_ptr<TrackedPair>>& pairs);
+  /// Returns whether niches of a pair can be had without waiting, and else begins to prepare them after
+  /// what came before; at once where no thread can be had. Levels that prove no distance never wait.
+  bool isPrepared(TrackedPair& pair);
 
  private:
   struct Entry {
@@ -71,6 +72,7 @@ class NichePreparation {
   };
   void add(Entry entry);
   void work();
+  void addAhead(const std::shared_ptr<const BodyMesh>& mesh, const TrackerParameters& parameters);
   bool isBegunAhead(const std::shared_ptr<const BodyMesh>& mesh);
   std::unordered_map<const BodyMesh*, std::weak_ptr<const BodyMesh>> begun_ahead_;
   std::size_t most_begun_ = 64;  ///< before those that are gone are looked for

@@ -1,35 +1,19 @@
 #include "concave_distance/scene/scene_tracker.h"
 
 #include <algorithm>
-#include <new>
-#include <string_view>
-#include <unordered_map>
+#include <chrono>
+#include <cmath>
 #include <utility>
 
+#include "body_preparation.h"
 #include "concave_distance/base/error.h"
 #include "cycle_solver.h"
+#include "listed_places.h"
 #include "near_pairs.h"
 #include "niche_preparation.h"
 
 namespace concave_distance {
 namespace {
-
-void requireBodies(const Scene& scene, const ScenePair& pair) {
-  const auto where = [&] { return "scene, pair '" + pair.name + "'"; };
-  const std::size_t count = scene.bodies.size();
-  for (const std::size_t body : {pair.body_a, pair.body_b}) {
-    if (body >= count) {
-      throw Error(where(), "it names body " + std::to_string(body) + " of " + std::to_string(count),
-                  "bodies are numbered from 0 in the order of scene.bodies");
-    }
-    if (!scene.bodies[body].mesh) {
-      throw Error(where(), "body '" + scene.bodies[body].name + "' has no mesh", "set SceneBody::mesh");
-    }
-  }
-  if (pair.body_a == pair.body_b) {
-    throw Error(where(), "both its bodies are '" + scene.bodies[pair.body_a].name + "'", "name two bodies");
-  }
-}
 
 void requireCount(const std::string& what, std::size_t given, std::size_t needed, const std::string& each) {
   if (given == needed) return;
@@ -38,20 +22,13 @@ void requireCount(const std::string& what, std::size_t given, std::size_t needed
               "give one for each, in their order");
 }
 
-bool isOfTheSameBodies(const TrackedPair& tracked, const Scene& scene, const ScenePair& wanted) {
-  return isSameBody(*tracked.body_a, scene.bodies[wanted.body_a]) &&
-         isSameBody(*tracked.body_b, scene.bodies[wanted.body_b]);
-}
-
-// An edit shares the bodies that it leaves as they are.
-bool isUntouched(const TrackedPair& tracked, const Scene& scene, std::size_t index) {
-  const ScenePair& wanted = scene.pairs[index];
-  return tracked.origin.get() == &wanted && tracked.body_a.get() == &scene.bodies[wanted.body_a] &&
-         tracked.body_b.get() == &scene.bodies[wanted.body_b];
-}
-
-/// Triangles of a scene up to which what niches need, some 500 bytes each, is made before anybody asks.
-constexpr std::size_t kMostTrianglesAhead = 1'000'000;
+/// Of the cycles that prepare() runs: the first is cold, and the others let the buffers of warm ones grow, at
+/// last of those with an end.
+constexpr int kPreparingCycles = 6;
+constexpr int kPreparingCyclesWithEnd = 3;
+constexpr double kPreparingStep = 1e-3;  // s between them
+constexpr double kPreparingShift =
+    1e-6;  // of the smaller body: they move B, because a pair at rest does less
 
 }  // namespace
 
@@ -65,32 +42,12 @@ SceneTracker::SceneTracker(SceneTrackerOptions options)
 SceneTracker::~SceneTracker() = default;
 
 std::vector<std::optional<std::size_t>> SceneTracker::placesNow(const Scene& scene) const {
-  std::vector<std::optional<std::size_t>> places(scene.pairs.size());
-  // Usually an edit leaves most pairs as they are, in their places.
-  std::unordered_map<std::string_view, std::size_t> moved;
-  for (const ScenePair& pair : scene.pairs) requireBodies(scene, pair);
-  for (std::size_t index = 0; index < pairs_.size(); ++index) {
-    if (index < places.size() && index < listed_ && isUntouched(*pairs_[index], scene, index)) {
-      places[index] = index;
-    } else {
-      moved.emplace(pairs_[index]->origin->name, index);
-    }
-  }
-  for (std::size_t index = 0; index < places.size(); ++index) {
-    if (places[index]) continue;
-    const ScenePair& wanted = scene.pairs[index];
-    const auto found = moved.find(wanted.name);
-    if (found != moved.end() && isOfTheSameBodies(*pairs_[found->second], scene, wanted)) {
-      places[index] = found->second;
-    }
-  }
-  return places;
+  return placesInTracker(pairs_, listed_, scene);
 }
 
 void SceneTracker::setScene(const Scene& scene, bool settings_changed) {
   for (const SceneBody& body : scene.bodies) {
-    const bool may_be_near = body.pair_class != 0 || body.added_rule;
-    if (may_be_near && !body.mesh) {
+    if (mayBeNear(body) && !body.mesh) {
       throw Error("scene", "body '" + body.name + "' has no mesh", "set SceneBody::mesh");
     }
   }
@@ -136,49 +93,13 @@ void SceneTracker::setScene(const Scene& scene, bool settings_changed) {
   near_->adopt(std::move(near), settings_changed, largest_retired_id_);
   refreshPairs();
   body_count_ = scene.bodies.size();
-  prepareAhead(scene);
+  if (preparation_) preparation_->addAhead(scene, pairs_);
 }
 
 void SceneTracker::refreshPairs() {
   pairs_.resize(listed_);
   pairs_.insert(pairs_.end(), near_->pairs().begin(), near_->pairs().end());
   near_revision_ = near_->revision();
-}
-
-// Many triangles take much memory: they wait until somebody wants their niches, as all do when none is left.
-void SceneTracker::prepareAhead(const Scene& scene) {
-  std::size_t triangles = 0;
-  for (const SceneBody& body : scene.bodies) {
-    if (body.mesh) triangles += body.mesh->surface().triangleCount();
-  }
-  if (!preparation_ || triangles > kMostTrianglesAhead) return;
-  try {
-    for (const auto& pair : pairs_) {
-      if (pair->origin->enabled) isPrepared(*pair);
-    }
-    // Which of the others will be near is not known: each mesh once, as if against itself.
-    const TrackerParameters& parameters = scene.defaults.pairs.tracker;
-    for (const SceneBody& body : scene.bodies) {
-      const bool may_be_near = body.pair_class != 0 || body.added_rule;
-      if (!may_be_near || !provesDistance(parameters.accuracy)) continue;
-      preparation_->addAhead(body.mesh, parameters);
-    }
-  } catch (const std::bad_alloc&) {
-    // The scene is tracked already; a cycle that wants the niches tries again.
-  }
-}
-
-// Begins the preparation where there is none yet. The other levels have no distance without their niches.
-bool SceneTracker::isPrepared(TrackedPair& pair) {
-  const TrackerParameters& parameters = pair.settings.tracker;
-  if (!preparation_ || !provesDistance(parameters.accuracy)) return true;
-  if (!pair.preparation || !pair.preparation->suffices(parameters)) {
-    // The pair has it when it is sure to run.
-    auto task = std::make_shared<PreparationTask>(pair.body_a->mesh, pair.body_b->mesh, parameters);
-    preparation_->add(task);
-    pair.preparation = std::move(task);
-  }
-  return pair.preparation->isDone();
 }
 
 SceneTracker::Pairs SceneTracker::takeRetired() {
@@ -198,8 +119,8 @@ void SceneTracker::restart(std::size_t pair) {
   pairs_[pair]->restart();
 }
 
-CycleCounts SceneTracker::update(const std::vector<std::optional<Eigen::Isometry3d>>& world_from_body,
-                                 double time, const PairDemand& demand, WorkLimit::Clock::time_point end) {
+void SceneTracker::takePoses(const std::vector<std::optional<Eigen::Isometry3d>>& world_from_body,
+                             double time) {
   requireCount("poses", world_from_body.size(), body_count_, "bodies");
   poses_.times.assign(1, time);
   poses_.now = time;
@@ -209,6 +130,11 @@ CycleCounts SceneTracker::update(const std::vector<std::optional<Eigen::Isometry
     poses_.newest[body] = 0;
     poses_.poses[body] = *world_from_body[body];
   }
+}
+
+CycleCounts SceneTracker::update(const std::vector<std::optional<Eigen::Isometry3d>>& world_from_body,
+                                 double time, const PairDemand& demand, WorkLimit::Clock::time_point end) {
+  takePoses(world_from_body, time);
   return update(
       poses_, [&demand](std::size_t, const TrackedPair&) { return demand; }, end);
 }
@@ -217,10 +143,9 @@ CycleCounts SceneTracker::update(const BodyPoses& poses, const DemandOf& demand_
                                  WorkLimit::Clock::time_point end) {
   requireCount("poses", poses.newest.size(), body_count_, "bodies");
   begin();
-  near_->update(poses, largest_retired_id_);
-  if (near_revision_ != near_->revision()) refreshPairs();
+  findNear(poses);
   const auto locate_pair = [&](std::size_t index) { return locate(poses, *pairs_[index]->origin); };
-  return runCycle(pairs_.size(), demand_of, locate_pair, end);
+  return runCycle(*solver_, pairs_.size(), demand_of, locate_pair, end);
 }
 
 CycleCounts SceneTracker::update(const std::vector<PairDemand>& demand, const Locate& locate,
@@ -228,7 +153,7 @@ CycleCounts SceneTracker::update(const std::vector<PairDemand>& demand, const Lo
   requireCount("demands", demand.size(), listed_, "pairs");
   begin();
   const auto demand_of = [&](std::size_t index, const TrackedPair&) { return demand[index]; };
-  return runCycle(listed_, demand_of, locate, end);
+  return runCycle(*solver_, listed_, demand_of, locate, end);
 }
 
 PairInput SceneTracker::locate(const BodyPoses& poses, const ScenePair& pair) const {
@@ -252,6 +177,11 @@ PairInput SceneTracker::locate(const BodyPoses& poses, const ScenePair& pair) co
   return input;
 }
 
+void SceneTracker::findNear(const BodyPoses& poses) {
+  near_->update(poses, largest_retired_id_);
+  if (near_revision_ != near_->revision()) refreshPairs();
+}
+
 void SceneTracker::begin() {
   if (!std::exchange(interrupted_, true)) return;
   for (auto& pair : pairs_) pair->discard();
@@ -259,8 +189,8 @@ void SceneTracker::begin() {
 }
 
 template <typename Demand, typename LocatePair>
-CycleCounts SceneTracker::runCycle(std::size_t count, const Demand& demand_of, const LocatePair& locate,
-                                   WorkLimit::Clock::time_point end) {
+CycleCounts SceneTracker::runCycle(CycleSolver& solver, std::size_t count, const Demand& demand_of,
+                                   const LocatePair& locate, WorkLimit::Clock::time_point end, bool watches) {
   CycleCounts counts;
   to_solve_.clear();
   for (std::size_t index = 0; index < count; ++index) {
@@ -273,24 +203,102 @@ CycleCounts SceneTracker::runCycle(std::size_t count, const Demand& demand_of, c
       continue;
     }
     ++counts.watched;
-    if ((pair.demand.niches || pair.demand.effects) && !isPrepared(pair)) {
+    if ((pair.demand.niches || pair.demand.effects) && preparation_ && !preparation_->isPrepared(pair)) {
       pair.demand.niches = pair.demand.effects = false;
       ++counts.unprepared;
     }
     if (pair.demand.due && pair.locate(locate(index), options_.stop)) to_solve_.push_back(&pair);
   }
-  solver_->begin(to_solve_);
+  solver.begin(to_solve_);
   if (end == kNoCycleEnd) {
-    solver_->solveAll();
+    solver.solveAll();
   } else {
-    solver_->solveUntil(end);
+    solver.solveUntil(end);
   }
   for (std::size_t index = 0; index < count; ++index) {
-    if (pairs_[index]->demand.due) pairs_[index]->watchWarning();
+    if (watches && pairs_[index]->demand.due) pairs_[index]->watchWarning();
   }
   this->count(count, counts);
+  counts.helper_cpu_seconds = solver.helperSeconds();
   interrupted_ = false;
   return counts;
+}
+
+PreparationCounts SceneTracker::prepare(const std::vector<std::optional<Eigen::Isometry3d>>& world_from_body,
+                                        double time, const PairDemand& demand,
+                                        const PreparationSettings& settings) {
+  using Clock = WorkLimit::Clock;
+  const std::chrono::duration<double> limit(settings.time_limit);
+  const Clock::time_point end = limit < std::chrono::hours(24 * 365)
+                                    ? Clock::now() + std::chrono::duration_cast<Clock::duration>(limit)
+                                    : kNoCycleEnd;
+  takePoses(world_from_body, time);
+  begin();
+  findNear(poses_);
+  interrupted_ = false;
+  PreparationCounts counts;
+  if (prepareBodies(demand, settings, end, counts)) runPreparingCycles(demand, settings, end, counts);
+  return counts;
+}
+
+bool SceneTracker::prepareBodies(const PairDemand& demand, const PreparationSettings& settings,
+                                 WorkLimit::Clock::time_point end, PreparationCounts& counts) {
+  if (!demand.niches && !demand.effects) return true;
+  BodyPreparation bodies(settings, end, options_.stop);
+  for (const auto& pair : pairs_) {
+    if (pair->origin->enabled) bodies.add(*pair->body_a->mesh, *pair->body_b->mesh, pair->settings.tracker);
+  }
+  bodies.addAhead(near_->scene());
+  const bool is_whole = bodies.run();
+  bodies.count(counts);
+  for (const auto& pair : pairs_) {
+    const TrackerParameters& parameters = pair->settings.tracker;
+    if (!pair->origin->enabled || !provesDistance(parameters.accuracy)) continue;
+    if (!is_whole || pair->preparation) continue;
+    auto task = std::make_shared<PreparationTask>(pair->body_a->mesh, pair->body_b->mesh, parameters);
+    task->run();  // finds all that it makes
+    pair->preparation = std::move(task);
+  }
+  return is_whole;
+}
+
+// Pairs whose last answer is of these poses are left as they are.
+void SceneTracker::runPreparingCycles(const PairDemand& demand, const PreparationSettings& settings,
+                                      WorkLimit::Clock::time_point end, PreparationCounts& counts) {
+  to_solve_.reserve(pairs_.size());
+  solver_->reserve(pairs_.size());
+  std::vector<PairDemand> demands(pairs_.size(), demand);
+  for (std::size_t index = 0; index < pairs_.size(); ++index) {
+    const TrackedPair& pair = *pairs_[index];
+    const PairInput input = locate(poses_, *pair.origin);
+    const bool has_niches = pair.demand.niches || !demand.niches;
+    const bool is_there = pair.input.a_from_b.matrix() == input.a_from_b.matrix();
+    if (pair.solved() && has_niches && is_there) demands[index].due = false;
+  }
+  CycleSolver cold_solver(settings.threads, options_.stop);
+  CycleCounts cycle;
+  for (int left = kPreparingCycles - 1; left >= 0; --left) {
+    const auto locate_pair = [&](std::size_t index) {
+      const TrackedPair& pair = *pairs_[index];
+      PairInput input = locate(poses_, *pair.origin);
+      if (input.fixed || left == 0) return input;
+      const double size = std::min(pair.body_a->mesh->diameter(), pair.body_b->mesh->diameter());
+      input.a_from_b.translation().x() += (left % 2 == 0 ? 1.0 : -1.0) * kPreparingShift * size;
+      input.time -= left * kPreparingStep;
+      return input;
+    };
+    const auto demand_of = [&](std::size_t index, const TrackedPair&) { return demands[index]; };
+    begin();
+    CycleSolver& solver = left == kPreparingCycles - 1 ? cold_solver : *solver_;
+    const bool has_end = left < kPreparingCyclesWithEnd;
+    const WorkLimit::Clock::time_point far_end = WorkLimit::Clock::now() + std::chrono::hours(1);
+    cycle = runCycle(solver, pairs_.size(), demand_of, locate_pair, has_end ? std::min(end, far_end) : end,
+                     false);
+  }
+  counts.lists_left = cycle.put_off + cycle.unprepared;
+  for (std::size_t index = 0; index < pairs_.size(); ++index) {
+    if (demands[index].due) pairs_[index]->effects.reset();
+  }
 }
 
 const OtherPairs& SceneTracker::others() const {
@@ -311,7 +319,6 @@ void SceneTracker::count(std::size_t pairs, CycleCounts& counts) const {
     counts.addSolve(pair->solution);
     counts.put_off += pair->put_off ? 1 : 0;
   }
-  counts.helper_cpu_seconds = solver_->helperSeconds();
 }
 
 }  // namespace concave_distance

@@ -36,6 +36,7 @@ TrackedPair::TrackedPair(std::shared_ptr<const ScenePair> pair, std::shared_ptr<
 void TrackedPair::takeSettings() {
   settings = origin->settings;
   settings.tracker = withMargins(settings.tracker, *body_a, *body_b);
+  if (preparation && !preparation->suffices(settings.tracker)) preparation.reset();
 }
 
 bool TrackedPair::locate(const PairInput& next, const std::atomic<bool>* stop) {

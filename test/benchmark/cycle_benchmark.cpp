@@ -11,91 +11,25 @@
 // complete; of the cycles the share in which all are; how many cycles a pair was without a complete list at
 // most. With --pairs, each pair that ever waited: its cycles, those without a complete list, its longest
 // wait.
-#include <urdf_parser/urdf_parser.h>
-
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
-#include <fstream>
-#include <functional>
-#include <iterator>
-#include <map>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "benchmark/support/benchmark_main.h"
+#include "benchmark/support/moving_scene.h"
 #include "benchmark/support/result_table.h"
 #include "benchmark/support/statistics.h"
-#include "concave_distance/base/error.h"
 #include "concave_distance/kinematics/scene_kinematics.h"
-#include "concave_distance/loading/load_scene.h"
 #include "concave_distance/scene/scene_tracker.h"
-#include "ros/demo/joint_path.h"
-#include "ros/demo/swaying_joints.h"
 
 namespace concave_distance::benchmark {
 namespace {
 
 using Clock = WorkLimit::Clock;
-using Positions = std::map<std::string, double>;
-
-std::string textOf(const std::string& path) {
-  std::ifstream file(path);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
-/// A scene whose bodies move with one robot.
-struct MovingScene {
-  Scene scene;
-  std::function<Positions(double)> joints;  ///< at a time, seconds
-};
-
-SceneLoadOptions loadOptions() {
-  SceneLoadOptions options;
-  options.package_locator = [](const std::string&) { return std::string(CONCAVE_DISTANCE_SOURCE_DIR); };
-  return options;
-}
-
-MovingScene demoScene(const std::string& name) {
-  const std::string folder = CONCAVE_DISTANCE_SOURCE_DIR;
-  const std::string urdf = textOf(folder + "/urdf/wam.urdf");
-  SceneLoadOptions options = loadOptions();
-  options.descriptions["robot_description"] = urdf;
-  const demo::NamedJointPath path = demo::readJointPath(folder + "/config/wam_path.csv");
-  return {loadSceneFile(folder + "/config/" + name + ".yaml", options), [path](double time) {
-            const Eigen::VectorXd at = path.path.at(time);
-            Positions positions;
-            for (std::size_t i = 0; i < path.joints.size(); ++i) {
-              positions[path.joints[i]] = at[static_cast<Eigen::Index>(i)];
-            }
-            return positions;
-          }};
-}
-
-/// A robot beside itself, as the node loads it without a scene file.
-MovingScene ownRobot(const std::string& files) {
-  const std::size_t comma = files.find(',');
-  const std::string path = files.substr(0, comma);
-  const std::string urdf = textOf(path);
-  const urdf::ModelInterfaceSharedPtr model = urdf::parseURDF(urdf);
-  if (!model) throw Error(path, "the URDF cannot be read", "name robot, cell or a file with a URDF");
-  SceneLoadOptions options = loadOptions();
-  options.mesh_search_path = {path};
-  options.automatic_cutoff = true;
-  if (comma != std::string::npos) {
-    options.descriptions["robot_description_semantic"] = textOf(files.substr(comma + 1));
-  }
-  return {loadRobotScene(urdf, path, options), [joints = demo::swayingJoints(*model)](double time) {
-            Positions positions;
-            for (const demo::SwayingJoint& joint : joints) positions[joint.name] = joint.at(time);
-            return positions;
-          }};
-}
-
 /// Counts how the lists of one pair were over the cycles.
 struct Waits {
   std::size_t lists = 0;
@@ -125,12 +59,10 @@ struct Settings {
   bool prints_pairs = false;
 };
 
-void measure(const MovingScene& moving, const std::string& name, std::uint32_t threads,
-             const Settings& settings, ResultTable& table) {
-  SceneTracker tracker({threads, nullptr, true});
+void measure(const MovingScene& moving, std::uint32_t threads, const Settings& settings, ResultTable& table) {
+  SceneTracker tracker({threads, nullptr});
   tracker.setScene(moving.scene);
   const SceneKinematics joints(moving.scene);
-  const std::vector<std::string>& names = joints.positionNames();
   Eigen::VectorXd positions = joints.restPositions();
   SceneState state = joints.startState();
   const double period = 1.0 / settings.rate;
@@ -138,27 +70,19 @@ void measure(const MovingScene& moving, const std::string& name, std::uint32_t t
   std::vector<Waits> waits(tracker.pairs().size());
   std::vector<double> milliseconds;
   std::size_t whole = 0;
-  bool is_prepared = false;
-  for (std::size_t cycle = 0; cycle < cycles;) {
+  moving.move(0.0, joints, positions);
+  joints.evaluate(positions, state);
+  tracker.prepare(state.world_from_body, -period);
+  for (std::size_t cycle = 0; cycle < cycles; ++cycle) {
     const double time = static_cast<double>(cycle) * period;
-    const Positions at = moving.joints(time);
-    for (std::size_t i = 0; i < names.size(); ++i) {
-      const auto named = at.find(names[i]);
-      if (named != at.end()) positions[static_cast<Eigen::Index>(i)] = named->second;
-    }
+    moving.move(time, joints, positions);
     joints.evaluate(positions, state);
     const Clock::time_point start = Clock::now();
     const std::chrono::duration<double> budget(settings.share * period);
     const Clock::time_point end =
         settings.share > 0.0 ? start + std::chrono::duration_cast<Clock::duration>(budget) : kNoCycleEnd;
-    const CycleCounts counts = tracker.update(state.world_from_body, time, {true, true, true, false}, end);
+    tracker.update(state.world_from_body, time, {true, true, true, false}, end);
     const double taken = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-    if (!is_prepared && counts.unprepared > 0) {
-      std::this_thread::sleep_for(std::chrono::duration<double>(period));
-      continue;
-    }
-    is_prepared = true;
-    ++cycle;
     milliseconds.push_back(taken);
     bool are_whole = true;
     for (std::size_t i = 0; i < waits.size(); ++i) {
@@ -181,8 +105,8 @@ void measure(const MovingScene& moving, const std::string& name, std::uint32_t t
   const auto late = std::count_if(milliseconds.begin(), milliseconds.end(),
                                   [&](double taken) { return taken > 1e3 * period; });
   const auto count = static_cast<double>(cycles);
-  table.add(name, threads, waits.size(), static_cast<double>(lists) / count, cycles, late, mean(milliseconds),
-            percentile(milliseconds, 0.99), percentile(milliseconds, 1.0),
+  table.add(moving.name, threads, waits.size(), static_cast<double>(lists) / count, cycles, late,
+            mean(milliseconds), percentile(milliseconds, 0.99), percentile(milliseconds, 1.0),
             1.0 - static_cast<double>(incomplete) / static_cast<double>(std::max<std::size_t>(lists, 1)),
             static_cast<double>(whole) / count, longest);
 }
@@ -207,10 +131,8 @@ int benchmarkMain(int argc, char** argv) {
                     "scene,threads,pairs,near,cycles,late,mean_ms,p99_ms,longest_ms,lists_complete,"
                     "cycles_complete,longest_wait");
   for (const std::string& scene : scenes) {
-    const bool is_demo = scene == "robot" || scene == "cell";
-    const MovingScene moving = is_demo ? demoScene(scene) : ownRobot(scene);
-    const std::string name = std::filesystem::path(scene.substr(0, scene.find(','))).stem().string();
-    for (const std::uint32_t count : threads) measure(moving, name, count, settings, table);
+    const MovingScene moving = movingScene(scene);
+    for (const std::uint32_t count : threads) measure(moving, count, settings, table);
   }
   return 0;
 }

@@ -102,6 +102,8 @@ class Rows(unittest.TestCase):
                 self.assertTrue(np.isnan(row.rows["drift"][0]))
             else:
                 self.assertAlmostEqual(row.rows["drift"][0], 0.7)
+                self.assertAlmostEqual(row.rows["drift_a"][0], 0.2)
+                self.assertAlmostEqual(row.rows["drift_b"][0], 0.5)
 
     def test_rows_are_the_differences_of_distances(self):
         robot = load_wam()
@@ -175,6 +177,11 @@ class Rows(unittest.TestCase):
         values = np.sort(every.rows["value"][every.rows["state"] == cd.SlotState.USED])
         self.assertGreater(len(values), 2)
         self.assertEqual(nearest.overflow, len(values) - 2)
+        left = nearest.unlisted[nearest.unlisted["reason"] == cd.UnlistedReason.NO_SLOT]
+        self.assertGreater(left.size, 0)
+        self.assertEqual(nearest.reach.shape, (nearest.unlisted.size, len(robot.velocity_names)))
+        self.assertTrue(np.all(nearest.reach >= 0.0))
+        self.assertFalse(np.any(every.unlisted["reason"] == cd.UnlistedReason.NO_SLOT))
         np.testing.assert_array_equal(np.sort(nearest.rows["value"]), values[:2])
 
     def test_errors(self):

@@ -15,6 +15,8 @@ namespace concave_distance {
 struct ConstraintSettings {
   double distance = 0.1;        ///< metres; niches within it have rows
   std::uint32_t capacity = 64;  ///< slots; with more rows than that, the farthest have none
+  /// Radians; edges and faces of the smaller body's size that are tilted by less have rows for their corners.
+  double tilt = 1e-4;
 };
 
 enum class SlotState : std::uint8_t {
@@ -30,10 +32,10 @@ struct ConstraintRow {
   SlotState state = SlotState::Free;        ///< all that follows holds where it is Used
   std::shared_ptr<const TrackedPair> pair;  ///< nullptr where it is not
   std::uint64_t niche_id = 0;               ///< several rows have one where the niche is a segment or patch
-  std::uint64_t age = 0;                    ///< cycles since this row has its slot
-  double value = kNotComputed;              ///< metres: signed distance of the place
-  bool is_overlapping = false;              ///< without a signed value: value is 0, and in truth less
-  double lower_bound = kNotComputed;        ///< metres, proven: no place of the pair is nearer
+  std::uint64_t age = 0;              ///< cycles since this row has its slot, or its signed value has jumped
+  double value = kNotComputed;        ///< metres: signed distance of the place
+  bool is_overlapping = false;        ///< without a signed value: value is 0, and in truth less
+  double lower_bound = kNotComputed;  ///< metres, proven: no place of the pair is nearer
   Eigen::Vector3d normal = Eigen::Vector3d::Constant(kNotComputed);   ///< from A to B
   Eigen::Vector3d point_a = Eigen::Vector3d::Constant(kNotComputed);  ///< metres
   Eigen::Vector3d point_b = Eigen::Vector3d::Constant(kNotComputed);
@@ -43,6 +45,33 @@ struct ConstraintRow {
   /// m/s, positive when approaching: the part of the closing speed that is of other bodies and of the roots
   /// of robots, from their poses in the last update(); NaN in a first one, and when the time did not advance.
   double drift = kNotComputed;
+  double drift_a = kNotComputed;  ///< m/s: the part of `drift` that A's carrier makes
+  double drift_b = kNotComputed;  ///< m/s: ... and body B's
+};
+
+enum class UnlistedReason : std::uint8_t {
+  NoPose,      ///< a body has no pose
+  Unsolved,    ///< the pair has no answer
+  Unfinished,  ///< its list of niches is not proven complete: the end of a cycle, a limit or its preparation
+  BeyondCutoff,  ///< it is not searched beyond its cutoff, which is less than the rows' distance
+  NoSlot         ///< all slots have nearer rows
+};
+
+/// Says of which pairs places within the rows' distance may have no row, and how near these can be. Such a
+/// place comes nearer by at most `row of reach() * |velocities| + drift` m/s.
+struct UnlistedPlaces {
+  /// A ball around a body, metres, in the world.
+  struct Ball {
+    Eigen::Vector3d centre = Eigen::Vector3d::Constant(kNotComputed);
+    double radius = kNotComputed;
+  };
+  UnlistedReason reason = UnlistedReason::Unsolved;
+  std::shared_ptr<const TrackedPair> pair;  ///< nullptr with NoPose: all pairs of `body`
+  std::size_t body = 0;                     ///< place in Scene::bodies, with NoPose
+  double lower_bound = kNotComputed;        ///< metres: none of them is nearer; NaN: they can be anywhere
+  double drift = kNotComputed;              ///< m/s, at most; NaN: not known
+  Ball ball_a;
+  Ball ball_b;
 };
 
 /// Rows for those who act: for every niche within a distance, of pairs that a joint can move, how its
@@ -76,6 +105,11 @@ class ConstraintRows {
   const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>& jacobian() const;
   /// How many rows of the last update() have no slot: the farthest.
   std::size_t overflow() const;
+  /// Lists what may be near without a row, of the last update(). At levels below `certified`, which prove no
+  /// list, only pairs without an answer and rows without a slot are here.
+  const std::vector<UnlistedPlaces>& unlisted() const;
+  /// A row for each of unlisted(): m/s for a rad/s or m/s at most; columns as those of jacobian().
+  const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>& reach() const;
   const SceneKinematics& joints() const;
 
  private:

@@ -47,6 +47,8 @@ class SceneKinematics {
   std::size_t bodyCount() const { return places_.size(); }
   /// SceneBody::serial, which edits of the scene keep.
   std::uint64_t serialOf(std::size_t body) const { return serials_[body]; }
+  /// SceneBody::name.
+  const std::string& nameOf(std::size_t body) const { return names_[body]; }
 
   /// As those of RobotKinematics, of all robots.
   const std::vector<std::string>& positionNames() const { return position_names_; }
@@ -77,6 +79,7 @@ class SceneKinematics {
   std::vector<Eigen::Isometry3d> frame_from_body_;
   std::vector<std::string> frames_;  ///< of the bodies
   std::vector<std::uint64_t> serials_;
+  std::vector<std::string> names_;
   RigidFrames rigid_;
   std::vector<std::string> position_names_;
   std::vector<std::string> velocity_names_;

@@ -12,6 +12,7 @@
 #include "concave_distance/base/work_limit.h"
 #include "concave_distance/scene/body_poses.h"
 #include "concave_distance/scene/cycle_counts.h"
+#include "concave_distance/scene/prepare_scene.h"
 #include "concave_distance/scene/scene.h"
 #include "concave_distance/scene/tracked_pair.h"
 
@@ -58,6 +59,20 @@ class SceneTracker {
   /// Error as setScene()
   std::vector<std::optional<std::size_t>> placesNow(const Scene& scene) const;
 
+  /// Before a loop in real time: an update() near these poses then takes what a warm one takes. Makes what
+  /// niches need of the bodies of pairs(), and of all that rules watch, where it is missing, so that after an
+  /// edit of the scene it makes that of new bodies: normal cones (0.5 kB a triangle), grids and metrics of
+  /// the search (SceneLoadOptions::metric_memory_limit bounds the largest part). Then solves each pair at
+  /// these poses, cold and moved to and fro by a millionth of its size, so that buffers grow and niches have
+  /// their ids; a pair whose last answer is of these poses is left as it is. pairs() has the answers.
+  /// Warnings are compared from the next update() on. What contact needs, or a pair that is far away, is
+  /// made when it comes to that: call it for such poses too, with the first ones of the loop last.
+  /// @param time of these poses, seconds, before that of the next update() @param demand of cycles to come
+  /// @throws Error as update()
+  PreparationCounts prepare(const std::vector<std::optional<Eigen::Isometry3d>>& world_from_body, double time,
+                            const PairDemand& demand = {true, true, true, false},
+                            const PreparationSettings& settings = {});
+
   /// One cycle. @param poses of the scene's bodies, in their order
   /// @param end as below. A warm cycle in which no pair comes near or leaves allocates nothing.
   /// @throws Error for another number of bodies than the scene has
@@ -103,12 +118,17 @@ class SceneTracker {
  private:
   void begin();
   void refreshPairs();
+  void takePoses(const std::vector<std::optional<Eigen::Isometry3d>>& world_from_body, double time);
+  void findNear(const BodyPoses& poses);
   template <typename Demand, typename LocatePair>
-  CycleCounts runCycle(std::size_t count, const Demand& demand_of, const LocatePair& locate,
-                       WorkLimit::Clock::time_point end);
+  CycleCounts runCycle(CycleSolver& solver, std::size_t count, const Demand& demand_of,
+                       const LocatePair& locate, WorkLimit::Clock::time_point end,
+                       bool watches_warnings = true);
   PairInput locate(const BodyPoses& poses, const ScenePair& pair) const;
-  bool isPrepared(TrackedPair& pair);
-  void prepareAhead(const Scene& scene);
+  bool prepareBodies(const PairDemand& demand, const PreparationSettings& settings,
+                     WorkLimit::Clock::time_point end, PreparationCounts& counts);
+  void runPreparingCycles(const PairDemand& demand, const PreparationSettings& settings,
+                          WorkLimit::Clock::time_point end, PreparationCounts& counts);
   void count(std::size_t pairs, CycleCounts& counts) const;
 
   SceneTrackerOptions options_;

@@ -71,9 +71,11 @@ struct TrackedPair {
   bool put_off = false;          ///< the end of the cycle has left niches or effects of the answer unfinished
   std::uint64_t largest_id = 0;  ///< of a niche reported so far
   std::uint32_t cycles_put_off = 0;  ///< in a row, since the list was finished or had most of a cycle's time
-  std::uint32_t cycles_unfinished = 0;           ///< in a row, since the list was finished
-  double seconds_to_finish = 0.0;                ///< that finish() is expected to take, by what it last took
-  std::shared_ptr<PreparationTask> preparation;  ///< of its bodies in the background; nullptr: not begun
+  std::uint32_t cycles_unfinished = 0;  ///< in a row, since the list was finished
+  double seconds_to_finish = 0.0;       ///< that finish() is expected to take, by what it last took
+  /// Makes what its bodies need for these settings, in the background or in SceneTracker::prepare(); nullptr:
+  /// not begun.
+  std::shared_ptr<PreparationTask> preparation;
 
   bool solved() const { return state == PairState::Solved; }
 

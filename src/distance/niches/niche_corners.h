@@ -25,6 +25,8 @@ using CornerPairs = std::array<CornerPair, kMostCorners + 1>;
 struct CornerWorkspace {
   ExtentWorkspace extent;
   std::vector<Eigen::Vector2d> hull;
+  std::vector<NodeIndex> level;
+  std::vector<bool> is_level;  ///< by node; false between calls
 };
 
 /// Finds the corners of what is level with a niche within `tolerance` (metres, of height above its points):
@@ -32,11 +34,12 @@ struct CornerWorkspace {
 /// between the corners is nearer than the nearest of them. At most kMostCorners: those whose hull is largest.
 /// A corner is a vertex and the point closest to it, or two edges that cross, at its own distance; sliding it
 /// along its features changes nothing to first order.
-/// @param least_length metres; a shorter set is a point @param pair_limit triangle pairs to look at, as
-/// measureExtent()
+/// @param least_length metres; a shorter set is a point
+/// @param pair_limit @param ring_limit what to look at, as measureExtent()
 /// @return how many were found; 0 for a set that is a point, touches or has more triangle pairs than that
 std::size_t findCorners(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b,
                         const WitnessPair& witness, double tolerance, double least_length,
-                        std::size_t pair_limit, CornerWorkspace& workspace, CornerPairs& corners);
+                        std::size_t pair_limit, std::size_t ring_limit, CornerWorkspace& workspace,
+                        CornerPairs& corners);
 
 }  // namespace concave_distance

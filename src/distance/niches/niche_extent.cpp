@@ -51,7 +51,6 @@ PlanarFeature levelPart(const LevelSide& side, TriangleIndex t, double tolerance
 /// Triangles in all rings around the corners of a set: about 12 for each corner of a pair, many more when the
 /// sideways reach is longer than the triangles, as at large distances.
 constexpr std::size_t kRingsPerPair = 1024;
-constexpr std::size_t kLargestRings = std::size_t{1} << 20U;
 
 bool isCornerOf(const TriangleNodes& nodes, NodeIndex node) {
   return std::find(nodes.begin(), nodes.end(), node) != nodes.end();
@@ -60,12 +59,12 @@ bool isCornerOf(const TriangleNodes& nodes, NodeIndex node) {
 class LevelSetSearch {
  public:
   LevelSetSearch(const LevelSide& a, const LevelSide& b, const Levels& levels, std::size_t pair_limit,
-                 WorkLimit& limit, ExtentWorkspace& workspace, NicheExtent& extent)
+                 std::size_t ring_limit, WorkLimit& limit, ExtentWorkspace& workspace, NicheExtent& extent)
       : a_(a),
         b_(b),
         levels_(levels),
         pair_limit_(pair_limit),
-        rings_left_(std::min(kRingsPerPair * std::min(pair_limit, kLargestRings), kLargestRings)),
+        rings_left_(std::min(kRingsPerPair * std::min(pair_limit, kLargestRings), ring_limit)),
         limit_(limit),
         workspace_(workspace),
         extent_(extent) {}
@@ -235,7 +234,7 @@ void placeRepresentative(const detail::PairFrame& frame, const LevelSide& a, dou
 
 NicheExtent measureExtent(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b,
                           const WitnessPair& witness, double tolerance, std::size_t pair_limit,
-                          ExtentWorkspace& workspace, WorkLimit* limit) {
+                          ExtentWorkspace& workspace, WorkLimit* limit, std::size_t ring_limit) {
   NicheExtent extent;
   extent.representative = witness;
   const detail::PairFrame frame(a, b, a_from_b, witness.triangle_a, witness.triangle_b);
@@ -270,7 +269,8 @@ NicheExtent measureExtent(const BodyMesh& a, const BodyMesh& b, const Eigen::Iso
     return extent;
   }
   WorkLimit none;
-  LevelSetSearch(side_a, side_b, levels, pair_limit, limit != nullptr ? *limit : none, workspace, extent)
+  LevelSetSearch(side_a, side_b, levels, pair_limit, ring_limit, limit != nullptr ? *limit : none, workspace,
+                 extent)
       .run(witness.triangle_a, witness.triangle_b);
   workspace.corners = workspace.points;  // the hull sorts its input
   detail::convexHull(workspace.corners, workspace.hull);

@@ -57,6 +57,8 @@ struct ExtentWorkspace {
   double reach = 0.0;
 };
 
+inline constexpr std::size_t kLargestRings = std::size_t{1} << 20U;
+
 /// Collects the triangle pairs around a refined witness that reach the same distance (up to `tolerance`,
 /// metres, and the kernel's error) and measures the set, whichever of its triangle pairs the witness is from.
 /// Sideways the tolerance goes as far as it lengthens the distance d by no more: sqrt(2 d tolerance).
@@ -66,9 +68,12 @@ struct ExtentWorkspace {
 /// because so far apart a set cannot be distinguished from a point. Cost: at most pair_limit and 2^20 steps
 /// at any distance.
 /// @param limit may cut the set shorter; nullptr: none
+/// @param ring_limit triangles around corners of the set to look at: many where those are shorter than the
+/// sideways tolerance; some 60 ns each
 NicheExtent measureExtent(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b,
                           const WitnessPair& witness, double tolerance, std::size_t pair_limit,
-                          ExtentWorkspace& workspace, WorkLimit* limit = nullptr);
+                          ExtentWorkspace& workspace, WorkLimit* limit = nullptr,
+                          std::size_t ring_limit = kLargestRings);
 
 /// Gives the point pair just inside a corner of a piece of the set measured last: each point the closest to
 /// the other on its triangle; nothing for a piece that is a point.

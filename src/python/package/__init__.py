@@ -24,6 +24,7 @@ __all__ = [
     "SignedState",
     "SlotState",
     "Status",
+    "UnlistedReason",
     "find_clearance",
     "find_clearance_of_body",
     "load_body",

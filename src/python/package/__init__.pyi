@@ -54,6 +54,13 @@ class SlotState(IntEnum):
     USED = 1
     FREED = 2
 
+class UnlistedReason(IntEnum):
+    NO_POSE = 0
+    UNSOLVED = 1
+    UNFINISHED = 2
+    BEYOND_CUTOFF = 3
+    NO_SLOT = 4
+
 class PairState(IntEnum):
     NOT_WATCHED = 0
     NOT_LOCATED = 1
@@ -239,11 +246,15 @@ class Constraints:
     @property
     def pairs(self) -> List[str]: ...
     @property
+    def unlisted(self) -> NDArray[np.void]: ...
+    @property
+    def reach(self) -> NDArray[np.float64]: ...
+    @property
     def overflow(self) -> int: ...
     def __len__(self) -> int: ...
 
 class ConstraintRows:
-    def __init__(self, scene: Scene, *, distance: float = 0.1, capacity: int = 64) -> None: ...
+    def __init__(self, scene: Scene, *, distance: float = 0.1, capacity: int = 64, tilt: float = 0.0001) -> None: ...
     def update(
         self, tracker: SceneTracker, positions: ArrayLike, roots: Optional[ArrayLike] = None
     ) -> Constraints: ...

@@ -124,6 +124,13 @@ ParameterTable<N> ofTheCycle() {
           "slots of `constraints`: where there are more rows, the farthest have none")
           .from(1.0)
           .to(100000.0),
+      number<N>(
+          "constraint_tilt", [](auto& n) -> auto& { return n.constraints.settings.tilt; },
+          "edges and faces tilted by less have a row in `constraints` for each of their corners, as if they "
+          "were parallel")
+          .inUnit("rad")
+          .above(0.0)
+          .to(0.5),
       flag<N>(
           "track_constraints", [](auto& n) -> auto& { return n.constraints.always; },
           "follow rows without subscribers too, so that they have their slots before a controller starts"),

@@ -2,6 +2,7 @@
 
 #include <concave_distance/Constraints.h>
 
+#include <algorithm>
 #include <boost/make_shared.hpp>
 #include <utility>
 
@@ -48,15 +49,35 @@ void ConstraintTopic::publish(const ConstraintInput& input, ros::Time now) {
   const auto message = boost::make_shared<Constraints>();
   message->header.stamp = now;
   message->header.frame_id = reference_frame_;
+  message->transforms = now;
   message->constraint_distance = options_.settings.distance;
   if (!problem_.empty()) message->problems.push_back(problem_);
   if (rows_) {
     states_.update(input.buffer, input.frames);
     rows_->update(input.pairs, states_.state(), now.toSec());
     fillConstraints(*rows_, *message);
+    if (input.others.cut > 0) {
+      UnlistedPair& cut = message->unlisted.emplace_back();
+      cut.reason = UnlistedPair::PAIRS_CUT;
+      cut.lower_bound = cut.drift = kNotComputed;
+    }
+    message->transforms = oldestTransform(input, now);
     message->problems.insert(message->problems.end(), states_.problems().begin(), states_.problems().end());
   }
   if (topic_.isWatched()) topic_.publish(message);
+}
+
+ros::Time ConstraintTopic::oldestTransform(const ConstraintInput& input, ros::Time now) const {
+  ros::Time oldest = now;
+  for (const auto& pair : input.pairs) {
+    const std::size_t a = pair->origin->body_a;
+    const std::size_t b = pair->origin->body_b;
+    if (!pair->demand.due || std::max(a, b) >= joints_->bodyCount() || !concerns(*pair)) continue;
+    if (!pair->input.located) continue;  // said in `unlisted`
+    const ros::Time stamp = input.frames.commonStamp(a, b);
+    if (!stamp.isZero() && stamp < oldest) oldest = stamp;
+  }
+  return oldest;
 }
 
 void ConstraintTopic::reset() {

@@ -23,6 +23,7 @@ struct ConstraintInput {
   const SceneTracker::Pairs& pairs;
   const FramePoses& frames;
   const tf2::BufferCore& buffer;
+  const OtherPairs& others;
 };
 
 /// The topic `constraints`: rows of the joints of all robots, while somebody listens or `always`.
@@ -43,6 +44,8 @@ class ConstraintTopic {
   void reset();
 
  private:
+  ros::Time oldestTransform(const ConstraintInput& input, ros::Time now) const;
+
   WatchedTopic topic_;
   std::string reference_frame_;
   ConstraintOptions options_;

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "contact/contact_parameter_tables.h"
+#include "ros/guard/guard_parameters.h"
 #include "ros/node/node_parameter_table.h"
 #include "ros/node/simulation_runner.h"
 #include "ros/parameter_tables.h"
@@ -51,6 +52,10 @@ TEST(ParameterDocumentation, HasWhatASceneFileSaysOfContactAndSimulation) {
 
 TEST(ParameterDocumentation, HasTheSimulationNodesParameters) {
   expectTable("doc/simulation_node.md", "simulation", tableRows(simulationNodeParameters(), false));
+}
+
+TEST(ParameterDocumentation, HasTheVelocityGuardsParameters) {
+  expectTable("doc/velocity_guard.md", "velocity_guard", tableRows(guardParameterTable(), false));
 }
 
 template <typename Settings>

@@ -151,7 +151,8 @@ TEST(LaunchFiles, OwnRobotHoldsFloatingJointsAtTheirOriginsUntilSomethingMovesTh
 
 INSTANTIATE_TEST_SUITE_P(Demos, DemoLaunchFile,
                          testing::Values("insertion.launch", "contact.launch", "interactive.launch",
-                                         "robot.launch", "cell.launch", "crowd.launch", "simulation.launch"),
+                                         "velocity_guard.launch", "robot.launch", "cell.launch",
+                                         "crowd.launch", "rows.launch", "simulation.launch"),
                          [](const auto& info) {
                            const std::string name = info.param;
                            return name.substr(0, name.find('.'));

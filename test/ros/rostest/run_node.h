@@ -15,11 +15,8 @@ struct Ended {
   std::string output;
 };
 
-/// Runs a node of its own until it ends; what it says on both streams.
-inline Ended runNode(const std::string& arguments) {
-  // It stands beside this program.
-  const std::string node = std::filesystem::read_symlink("/proc/self/exe").parent_path() / "distance_node";
-  const std::string command = "timeout 20 " + node + " " + arguments + " 2>&1";
+/// Runs a command of the shell until it ends; what it says.
+inline Ended runCommand(const std::string& command) {
   FILE* pipe = popen(command.c_str(), "r");
   Ended ended{-1, ""};
   std::array<char, 256> buffer{};
@@ -29,6 +26,13 @@ inline Ended runNode(const std::string& arguments) {
   const int status = pipe == nullptr ? -1 : pclose(pipe);
   ended.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   return ended;
+}
+
+/// Runs a node of its own until it ends; what it says on both streams.
+inline Ended runNode(const std::string& arguments, const std::string& program = "distance_node") {
+  // It stands beside this program.
+  const std::string node = std::filesystem::read_symlink("/proc/self/exe").parent_path() / program;
+  return runCommand("timeout 20 " + node + " " + arguments + " 2>&1");
 }
 
 }  // namespace concave_distance

@@ -1,0 +1,22 @@
+#include <ros/init.h>
+#include <ros/node_handle.h>
+
+#include <cstdlib>
+#include <exception>
+
+#include "base/memory_arenas.h"
+#include "guard_server.h"
+
+int main(int argc, char** argv) {
+  concave_distance::limitMemoryArenas();
+  ros::init(argc, argv, "velocity_guard");
+  try {
+    const concave_distance::GuardServer server(ros::NodeHandle(), ros::NodeHandle("~"),
+                                               ros::this_node::getName());
+    ros::spin();
+  } catch (const std::exception& problem) {
+    ROS_FATAL_STREAM(problem.what());
+    return EXIT_FAILURE;
+  }
+  return EXIT_SUCCESS;
+}
