@@ -12,7 +12,6 @@
 namespace concave_distance::detail {
 namespace {
 
-constexpr double kMimicTolerance = 1e-6;  // rad or m
 constexpr std::size_t kMostNamed = 8;
 constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 

@@ -12,6 +12,9 @@
 
 namespace concave_distance::detail {
 
+/// A joint that mimics another may be given this far from where that puts it, rad or m.
+inline constexpr double kMimicTolerance = 1e-6;
+
 /// A joint in the tree, whose child is the link behind its place: joint i moves link i + 1.
 struct TreeJoint {
   RobotJoint given;

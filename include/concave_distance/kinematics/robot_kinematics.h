@@ -108,6 +108,9 @@ class RobotKinematics {
   void jacobian(const RobotState& state, std::size_t link, const Eigen::Vector3d& point,
                 Eigen::Ref<Eigen::Matrix3Xd> columns) const;
 
+  /// For concave_distance_loading.
+  const detail::RobotTree& tree() const { return *tree_; }
+
  private:
   std::unique_ptr<const detail::RobotTree> tree_;
 };
