@@ -18,6 +18,7 @@ set(CONCAVE_DISTANCE_ROS_PACKAGES
   tf2
   tf2_eigen
   tf2_ros
+  trajectory_msgs
   visualization_msgs)
 
 set(CONCAVE_DISTANCE_ROS_FOUND OFF)

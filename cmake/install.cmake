@@ -1,6 +1,6 @@
 # What is installed, in components (cmake --install build --component library):
 #   library   headers, concave_distance_core and concave_distance_loading, what find_package and pkg-config need
-#   tools     distance_query, mesh_tool, simulate, programs of the thesis where they are built, and the robots and scenes they are tried with
+#   tools     clearance_query, distance_query, mesh_tool, simulate, programs of the thesis where they are built, and the robots and scenes they are tried with
 #   node      (with ROS) the node, nodelet, messages, launch files
 # Each brings the licence. Files of the exported targets are for the devel space (or build tree) too.
 set(concave_distance_config_destination ${CONCAVE_DISTANCE_SHARE_DESTINATION}/cmake)
@@ -40,7 +40,7 @@ if(NOT CONCAVE_DISTANCE_WITH_ROS)
     DESTINATION ${concave_distance_config_destination} COMPONENT library)
 endif()
 
-install(TARGETS distance_query mesh_tool simulate
+install(TARGETS clearance_query distance_query mesh_tool simulate
   RUNTIME DESTINATION ${CONCAVE_DISTANCE_BIN_DESTINATION} COMPONENT tools)
 foreach(program evaluate thesis_tool)
   if(TARGET ${program})
@@ -51,6 +51,24 @@ install(DIRECTORY config meshes urdf DESTINATION ${CONCAVE_DISTANCE_SHARE_DESTIN
 if(CONCAVE_DISTANCE_WITH_ROS)
   install(DIRECTORY launch DESTINATION ${CONCAVE_DISTANCE_SHARE_DESTINATION} COMPONENT node)
   catkin_install_python(PROGRAMS scripts/follow_rows.py scripts/move_crowd.py scripts/pick_parts.py scripts/show_distances.py
-    scripts/view_robot.py DESTINATION ${CONCAVE_DISTANCE_BIN_DESTINATION})
+    scripts/view_robot.py src/ros/bridges/cob_bridge.py src/ros/bridges/moveit_bridge.py
+    DESTINATION ${CONCAVE_DISTANCE_BIN_DESTINATION})
   install(FILES scripts/row_program.py DESTINATION ${CONCAVE_DISTANCE_BIN_DESTINATION} COMPONENT node)
+  # Modules of the bridges, which look for them beside themselves; in no component, as the programs.
+  install(FILES
+    src/ros/bridges/bridge_problems.py
+    src/ros/bridges/cob_messages.py
+    src/ros/bridges/distance_node_client.py
+    src/ros/bridges/distance_node_scene.py
+    src/ros/bridges/message_definitions.py
+    src/ros/bridges/obstacle_distances.py
+    src/ros/bridges/octomap_relay.py
+    src/ros/bridges/planning_scene_messages.py
+    src/ros/bridges/planning_scene_source.py
+    src/ros/bridges/planning_scene_state.py
+    src/ros/bridges/planning_scene_values.py
+    src/ros/bridges/registered_obstacles.py
+    src/ros/bridges/rigid_transforms.py
+    src/ros/bridges/scene_operations.py
+    DESTINATION ${CONCAVE_DISTANCE_BIN_DESTINATION})
 endif()

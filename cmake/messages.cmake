@@ -3,6 +3,7 @@ set(CONCAVE_DISTANCE_MESSAGES
   Alert.msg
   BodyInfo.msg
   BodyState.msg
+  ClearanceFeedback.msg
   Constraint.msg
   Constraints.msg
   Contact.msg
@@ -16,6 +17,7 @@ set(CONCAVE_DISTANCE_MESSAGES
   NicheChange.msg
   Niches.msg
   OperationFault.msg
+  PairBracket.msg
   PairContactState.msg
   PairDistance.msg
   PairInfo.msg
@@ -32,6 +34,8 @@ set(CONCAVE_DISTANCE_MESSAGES
 set(CONCAVE_DISTANCE_SERVICES
   AddBody.srv
   ApplyScene.srv
+  CancelClearance.srv
+  GetClearance.srv
   GetDistance.srv
   GetDistances.srv
   GetScene.srv
@@ -55,7 +59,7 @@ if(CONCAVE_DISTANCE_SERVICES)
   add_service_files(FILES ${CONCAVE_DISTANCE_SERVICES})
 endif()
 if(CONCAVE_DISTANCE_MESSAGES OR CONCAVE_DISTANCE_SERVICES)
-  generate_messages(DEPENDENCIES geometry_msgs sensor_msgs shape_msgs std_msgs)
+  generate_messages(DEPENDENCIES geometry_msgs sensor_msgs shape_msgs std_msgs trajectory_msgs)
 endif()
 if(CONCAVE_DISTANCE_DYNAMIC_RECONFIGURE)
   generate_dynamic_reconfigure_options(${CONCAVE_DISTANCE_DYNAMIC_RECONFIGURE})

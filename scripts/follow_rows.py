@@ -201,7 +201,7 @@ def main():
         for rows in list(WORDS) if which == "both" else [which]:
             try:
                 record = run(robot, task, rows, picture)
-            except rospy.ServiceException as error:
+            except (rospy.ServiceException, rospy.ROSException) as error:
                 if rospy.is_shutdown():
                     return 0
                 raise SystemExit("the node {} does not answer any more: {}".format(rospy.resolve_name(NODE), error))

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Writes meshes/demo/*.stl: the concave things of the robot, the interactive and the rows scene.
+"""Writes meshes/demo/*.stl, the concave things of the robot and the interactive scene, and meshes/rows/clamp.stl.
 
     scripts/generate_demo_geometry.py [package folder]
 
@@ -16,10 +16,10 @@ from geometry.solid import write_binary_stl
 def main():
     root = os.path.abspath(sys.argv[1]) if len(sys.argv) > 1 else os.path.dirname(
         os.path.dirname(os.path.abspath(__file__)))
-    folder = os.path.join(root, "meshes", "demo")
-    os.makedirs(folder, exist_ok=True)
     for make in (demo_solids.clamp, demo_solids.comb, demo_solids.crane, demo_solids.eye, demo_solids.hook,
                  demo_solids.pipe, demo_solids.shelf, demo_solids.vase):
+        folder = os.path.join(root, "meshes", "rows" if make is demo_solids.clamp else "demo")
+        os.makedirs(folder, exist_ok=True)
         vertices, triangles = make()
         name = make.__name__
         write_binary_stl(os.path.join(folder, name + ".stl"), vertices, triangles, f"concave_distance: {name}")

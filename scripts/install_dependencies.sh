@@ -16,8 +16,8 @@ set -euo pipefail
     catkin python3-dynamic-reconfigure ros-message-generation ros-message-runtime
     libdiagnostic-updater-dev libdynamic-reconfigure-config-init-mutex-dev libgeometry-msgs-dev
     libinteractive-markers-dev libnodelet-dev libnodeletlib-dev libros-rosgraph-msgs-dev libroscpp-dev libroslib-dev libsensor-msgs-dev libshape-msgs-dev libstd-msgs-dev
-    libstd-srvs-dev libtf2-dev libtf2-eigen-dev libtf2-ros-dev libvisualization-msgs-dev pluginlib-dev
-    ros-geometry-msgs ros-sensor-msgs ros-shape-msgs ros-std-msgs ros-std-srvs ros-visualization-msgs
+    libstd-srvs-dev libtf2-dev libtf2-eigen-dev libtf2-ros-dev libtrajectory-msgs-dev libvisualization-msgs-dev pluginlib-dev
+    ros-geometry-msgs ros-sensor-msgs ros-shape-msgs ros-std-msgs ros-std-srvs ros-trajectory-msgs ros-visualization-msgs
   )
   debian_build=(
     "${debian_node[@]}"
@@ -33,13 +33,14 @@ set -euo pipefail
     python3-rosmaster python3-rospy python3-tf2-msgs python3-rosgraph-msgs python3-dynamic-reconfigure  # scripts/faults.sh
     python3-sensor-msgs  # pick_parts.py
     python3-matplotlib  # examples/plot_niches.py
+    python3-diagnostic-msgs python3-geometry-msgs python3-shape-msgs python3-std-msgs python3-tf2-ros  # the bridges
   )
   debian_demo=(
     python3-roslaunch python3-rospy python3-rosservice python3-rostopic rosbash rviz ros-robot-state-publisher
     python3-rospkg python3-tf2-ros python3-yaml  # scripts/view_robot.py
     python3-sensor-msgs python3-tf2-msgs  # pick_parts.py, move_crowd.py
     python3-cvxopt python3-numpy python3-rosgraph-msgs  # follow_rows.py
-    python3-geometry-msgs python3-shape-msgs python3-std-msgs python3-std-srvs python3-visualization-msgs python3-diagnostic-msgs  # what ours are made of
+    python3-geometry-msgs python3-shape-msgs python3-std-msgs python3-std-srvs python3-trajectory-msgs python3-visualization-msgs python3-diagnostic-msgs  # what ours are made of
   )
   debian_plot=(python3-matplotlib python3-yaml valgrind)
   debian_format=(clang-format)
@@ -56,10 +57,13 @@ set -euo pipefail
     ros-noetic-catkin ros-noetic-diagnostic-updater ros-noetic-dynamic-reconfigure ros-noetic-geometry-msgs
     ros-noetic-interactive-markers ros-noetic-message-generation ros-noetic-nodelet ros-noetic-pluginlib
     ros-noetic-roscpp ros-noetic-rosgraph-msgs ros-noetic-roslib ros-noetic-sensor-msgs ros-noetic-shape-msgs ros-noetic-std-msgs ros-noetic-std-srvs ros-noetic-tf2
-    ros-noetic-tf2-eigen ros-noetic-tf2-ros ros-noetic-visualization-msgs
+    ros-noetic-tf2-eigen ros-noetic-tf2-ros ros-noetic-trajectory-msgs ros-noetic-visualization-msgs
   )
   noetic_build=("${noetic_node[@]}" libcgal-dev libalglib-dev libfcl-dev python3-dev python3-numpy)
-  noetic_test=(git locales python3-yaml libgtest-dev libfcl-dev libboost-dev libbenchmark-dev ros-noetic-rostest ros-noetic-rosmaster ros-noetic-rospy ros-noetic-tf2-msgs python3-matplotlib)
+  noetic_test=(
+    git locales python3-yaml libgtest-dev libfcl-dev libboost-dev libbenchmark-dev ros-noetic-rostest ros-noetic-rosmaster ros-noetic-rospy ros-noetic-tf2-msgs
+    ros-noetic-diagnostic-msgs ros-noetic-tf2-ros python3-matplotlib
+  )
   noetic_demo=(
     ros-noetic-roslaunch ros-noetic-rospy ros-noetic-rosservice ros-noetic-rostopic ros-noetic-rosbash ros-noetic-rviz
     ros-noetic-robot-state-publisher ros-noetic-tf2-msgs

@@ -46,5 +46,5 @@ done
 cd "$package_dir"
 for result in doc/results/rows.csv 'doc/results/rows_*.csv' 'doc/images/rows*.png'; do
   scripts/provenance.py record "$result" --defaults tracker --command scripts/measure_rows.sh \
-    --inputs 'config/rows_*.yaml,urdf/clamp.urdf,urdf/wam.urdf,meshes/demo/clamp.stl'
+    --inputs 'config/rows_*.yaml,urdf/clamp.urdf,urdf/wam.urdf,meshes/rows/clamp.stl'
 done

@@ -2,20 +2,18 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 
 #include "concave_distance/base/error.h"
 
 namespace concave_distance {
 
-RequestGate::RequestGate(std::uint32_t workers, std::uint32_t waiting, double waiting_seconds)
-    : workers_(workers), waiting_(waiting), waiting_seconds_(waiting_seconds) {}
+RequestGate::RequestGate(std::uint32_t workers, std::uint32_t waiting, double waiting_seconds,
+                         std::string remedy)
+    : workers_(workers), waiting_(waiting), waiting_seconds_(waiting_seconds), remedy_(std::move(remedy)) {}
 
 RequestGate::Place RequestGate::enter() {
-  const auto busy = [&](const std::string& what) {
-    return Error(
-        "SERVICE BUSY", what,
-        "send requests later, one at a time, or raise ~limits/service_threads or ~limits/service_queue");
-  };
+  const auto busy = [&](const std::string& what) { return Error("SERVICE BUSY", what, remedy_); };
   std::unique_lock<std::mutex> lock(mutex_);
   const bool has_to_wait = working_ >= workers_ || !line_.empty();
   if (!stopped_ && has_to_wait && line_.size() >= waiting_) {
@@ -32,7 +30,7 @@ RequestGate::Place RequestGate::enter() {
     throw Error("service", "the node is shutting down", "ask again when it is back");
   }
   if (!may_enter) {
-    throw busy("no thread became free within ~limits/query_seconds");
+    throw busy("no thread became free in time");
   }
   return Place(*this);
 }

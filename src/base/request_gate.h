@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <deque>
 #include <mutex>
+#include <string>
 
 namespace concave_distance {
 
@@ -14,7 +15,11 @@ namespace concave_distance {
 class RequestGate {
  public:
   /// @param waiting_seconds longest wait of a request before it is refused, too
-  RequestGate(std::uint32_t workers, std::uint32_t waiting, double waiting_seconds);
+  /// @param remedy for requests that are refused
+  RequestGate(std::uint32_t workers, std::uint32_t waiting, double waiting_seconds,
+              std::string remedy =
+                  "send requests later, one at a time, or raise ~limits/service_threads or "
+                  "~limits/service_queue");
 
   /// Permission to run; the destructor lets the next request run.
   class Place {
@@ -44,6 +49,7 @@ class RequestGate {
   std::uint32_t workers_;
   std::uint32_t waiting_;
   std::chrono::duration<double> waiting_seconds_;
+  std::string remedy_;
   std::mutex mutex_;
   std::condition_variable changed_;
   std::deque<std::uint64_t> line_;  ///< waiting requests, in the order in which they came

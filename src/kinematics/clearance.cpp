@@ -160,8 +160,15 @@ void describeLeast(const Scene& scene, const MotionPaths& paths, const Clearance
   result.body_a = pair.body_a;
   result.body_b = pair.body_b;
   result.distance = sample.distance;
-  result.point_a = world_from_a * sample.point_a_in_a;
-  result.point_b = world_from_a * sample.point_b_in_a;
+  Eigen::Vector3d point_a = sample.point_a_in_a;
+  Eigen::Vector3d point_b = sample.point_b_in_a;
+  if (sample.distance > 0.0) {
+    const Eigen::Vector3d normal = (point_b - point_a).normalized();
+    point_a += scene.bodies[pair.body_a].margin * normal;
+    point_b -= scene.bodies[pair.body_b].margin * normal;
+  }
+  result.point_a = world_from_a * point_a;
+  result.point_b = world_from_a * point_b;
   result.world_from_a = world_from_a * Eigen::Translation3d(-pair.a->origin);
   if (!parameters.niches) return;
   detail::RelativePose pose;

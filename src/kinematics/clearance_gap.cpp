@@ -27,12 +27,14 @@ Crossing crossingByWay(double left, double right, double way) {
   return {along, std::max(left - along, right - (way - along))};
 }
 
-// With the same acceleration on both sides the squares cancel: the equation is linear.
+// With the same acceleration on both sides the squares cancel: the equation is linear. Where both ends are
+// seen from one body, each one's bound of the acceleration holds for the whole span.
 Crossing crossingBySpeed(const ClearanceGap& gap, double length) {
   DisplacementBound from_left = gap.from_left;
   DisplacementBound from_right = gap.from_right;
+  const auto [least, most] = std::minmax(gap.from_left.acceleration, gap.from_right.acceleration);
   from_left.acceleration = from_right.acceleration =
-      std::min(gap.from_left.acceleration, gap.from_right.acceleration);
+      from_left.is_from_a == from_right.is_from_a ? least : most;
   const double left = gap.left.lower;
   const double right = gap.right.lower;
   const double sum = from_left.speed + from_right.speed + from_left.acceleration * length;

@@ -12,7 +12,7 @@ namespace {
 
 /// A bound by boxes is taken where it is this share of what is needed: an exact distance takes some ten times
 /// as long.
-constexpr double kShareByBoxes = 0.25;
+constexpr double kShareByBoxes = 0.1;
 /// A distance is proven to this share of what it is above the aim.
 constexpr double kRelativeTolerance = 0.2;
 

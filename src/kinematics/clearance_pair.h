@@ -35,7 +35,7 @@ struct ClearancePair {
   RelativePath path;
 };
 
-/// What is known of a pair at one moment.
+/// Holds what is known of a pair at one moment.
 struct ClearanceSample {
   double moment = 0.0;
   double lower = -std::numeric_limits<double>::infinity();    ///< metres, proven; margins taken off

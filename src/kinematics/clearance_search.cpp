@@ -24,6 +24,8 @@ constexpr double kSampleShare = 0.25;
 constexpr double kFirstSampleShare = 0.0625;
 /// A gap of certified ends in which nothing moves farther than this share of the tolerance is not split.
 constexpr double kLeastWayShare = 1.0 / 64.0;
+/// Metres: distances prove little of a gap in which more is moved.
+constexpr double kLongestWay = 0.5;
 constexpr std::chrono::milliseconds kReportPeriod(100);
 
 }  // namespace
@@ -179,6 +181,21 @@ void ClearanceSearch::addStarts() {
   }
 }
 
+// The least sample is exact to a share of the tolerance; now its distance becomes the pair's at its moment.
+void ClearanceSearch::sharpenLeast() {
+  if (!least_) return;
+  const ClearancePair& pair = pairs_[least_->pair];
+  ClearanceWorkspace& workspace = workspaces_.front();
+  pair.path.evaluate(paths_, momentAt(least_->sample.moment, paths_.segmentCount()), workspace.pose);
+  SampleRequest request;
+  request.aim = request.need = kInfinity;
+  request.allows_boxes = false;
+  ++queries_;
+  const TrianglePair start = least_->sample.triangles;
+  take(sampleAt(pair, least_->sample.moment, request, &start, 1, least_->sample.is_apart, workspace, limit_),
+       least_->pair);
+}
+
 void ClearanceSearch::findLeast() {
   begin();
   std::size_t most = kFirstJobs;
@@ -208,9 +225,11 @@ void ClearanceSearch::findLeast() {
     most = kMostJobs;
     report();
   }
+  sharpenLeast();
 }
 
-// Samples an end that proves less than is aimed at and was not looked at exactly, or the weakest moment.
+// Halves a gap in which much is moved. Else samples an end that proves less than is aimed at and was not
+// looked at exactly, or the weakest moment.
 void ClearanceSearch::refine(Job& job, ClearanceWorkspace& workspace) const {
   const ClearanceGap& gap = gaps_[job.gap];
   SampleRequest request;
@@ -222,7 +241,10 @@ void ClearanceSearch::refine(Job& job, ClearanceWorkspace& workspace) const {
     return !end.is_certified && (is_undivided || !(end.lower > request.aim));
   };
   double moment = gap.weakest;
-  if (is_weak(gap.left)) {
+  if (gap.way > kLongestWay && !is_undivided) {
+    request.need = 0.0;
+    moment = splitAt(paths_, gap.left.moment, gap.right.moment, 0.5 * (gap.left.moment + gap.right.moment));
+  } else if (is_weak(gap.left)) {
     moment = gap.left.moment;
     request.allows_boxes = false;
   } else if (is_weak(gap.right)) {

@@ -69,6 +69,7 @@ class ClearanceSearch {
 
   void begin();
   void addStarts();
+  void sharpenLeast();
   template <typename Work>
   void runJobs(const Work& work);
   void refine(Job& job, ClearanceWorkspace& workspace) const;

@@ -18,12 +18,11 @@ struct Twist {
   Vector3d turn = Vector3d::Zero();
   Vector3d slide = Vector3d::Zero();  ///< at the base's origin
 
-  double fastest(const std::array<Vector3d, 8>& points) const {
-    double squared = 0.0;
-    for (const Vector3d& point : points) {
-      squared = std::max(squared, (slide + turn.cross(point)).squaredNorm());
-    }
-    return std::sqrt(squared);
+  double fastest(const BoxCorners& points) const {
+    const auto x = slide.x() + turn.y() * points.col(2) - turn.z() * points.col(1);
+    const auto y = slide.y() + turn.z() * points.col(0) - turn.x() * points.col(2);
+    const auto z = slide.z() + turn.x() * points.col(1) - turn.y() * points.col(0);
+    return std::sqrt((x.square() + y.square() + z.square()).maxCoeff());
   }
 };
 
@@ -46,29 +45,34 @@ Twist twistOf(const MotionPaths& paths, const RelativePath& path, const Relative
   return twist;
 }
 
-using Points = std::array<Vector3d, 8>;
-
-double farthestFromAxis(const RelativePose::Axis& axis, const Points& points) {
-  double squared = 0.0;
-  for (const Vector3d& point : points) {
-    squared = std::max(squared, (point - axis.origin).cross(axis.direction).squaredNorm());
+BoxCorners placed(const Eigen::Isometry3d& pose, const BoxCorners& corners) {
+  BoxCorners points;
+  for (Eigen::Index k = 0; k < 3; ++k) {
+    points.col(k) =
+        pose(k, 0) * corners.col(0) + pose(k, 1) * corners.col(1) + pose(k, 2) * corners.col(2) + pose(k, 3);
   }
-  return std::sqrt(squared);
+  return points;
 }
 
-double farthestFromOrigin(const RelativePose::Axis& axis, const Points& points) {
-  double squared = 0.0;
-  for (const Vector3d& point : points) squared = std::max(squared, (point - axis.origin).squaredNorm());
-  return std::sqrt(squared);
+/// Returns how far the farthest point is from an axis, or from its origin.
+double farthestFrom(const RelativePose::Axis& axis, bool is_axis, const BoxCorners& points) {
+  const Eigen::Array<double, 8, 1> x = points.col(0) - axis.origin.x();
+  const Eigen::Array<double, 8, 1> y = points.col(1) - axis.origin.y();
+  const Eigen::Array<double, 8, 1> z = points.col(2) - axis.origin.z();
+  const Eigen::Array<double, 8, 1> squared = x.square() + y.square() + z.square();
+  if (!is_axis) return std::sqrt(squared.maxCoeff());
+  const auto along = axis.direction.x() * x + axis.direction.y() * y + axis.direction.z() * z;
+  // The difference is off by a few units of rounding of the squares.
+  return std::sqrt((squared * kRoundedUp - along.square()).maxCoeff());
 }
 
 }  // namespace
 
 BoxCorners cornersOf(const BodyBounds& bounds) {
   BoxCorners corners;
-  for (std::size_t i = 0; i < 8; ++i) {
+  for (unsigned i = 0; i < 8; ++i) {
     const Vector3d sides((i & 1U) != 0 ? 1.0 : -1.0, (i & 2U) != 0 ? 1.0 : -1.0, (i & 4U) != 0 ? 1.0 : -1.0);
-    corners[i] = bounds.centre + sides.cwiseProduct(bounds.half_extents);
+    corners.row(i) = (bounds.centre + sides.cwiseProduct(bounds.half_extents)).transpose().array();
   }
   return corners;
 }
@@ -127,10 +131,9 @@ MotionSpan::ElementSpan MotionSpan::spanOf(const PathElement& element) const {
 // to B, turned by the other if that turns. The view from B is the same from A's end.
 DisplacementBound MotionSpan::seenFrom(bool is_from_a, const RelativePose& pose,
                                        const BoxCorners& corners) const {
-  Points points;
-  const Eigen::Isometry3d& base_from_body = is_from_a ? pose.base_from_b : pose.base_from_a;
-  for (std::size_t i = 0; i < 8; ++i) points[i] = base_from_body * corners[i];
+  const BoxCorners points = placed(is_from_a ? pose.base_from_b : pose.base_from_a, corners);
   DisplacementBound bound;
+  bound.is_from_a = is_from_a;
   double turns_beyond = turns_;
   double terms = 0.0;  // of the sums below, for their rounding
   const std::size_t count = elements_.size();
@@ -144,8 +147,7 @@ DisplacementBound MotionSpan::seenFrom(bool is_from_a, const RelativePose& pose,
     if (element.isTurning()) {
       // The axis of a slerp is another in each segment.
       const bool has_one_axis = element.kind == PathElement::Kind::Turn || is_in_one_segment_;
-      reach = bound.way + (has_one_axis ? farthestFromAxis(pose.axes[place], points)
-                                        : farthestFromOrigin(pose.axes[place], points));
+      reach = bound.way + farthestFrom(pose.axes[place], has_one_axis, points);
       turns_beyond = std::max(0.0, turns_beyond - span.rate);
       turning = span.rate + 2.0 * turns_beyond + kRounding * turns_;
       terms += span.rate * (reach + 2.0 * pose.axes[place].origin.norm());

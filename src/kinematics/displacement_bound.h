@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Geometry>
-#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -10,8 +9,8 @@
 
 namespace concave_distance::detail {
 
-/// Holds the corners of a body's box, in its frame.
-using BoxCorners = std::array<Eigen::Vector3d, 8>;
+/// Holds the corners of a body's box, in its frame: a row for each.
+using BoxCorners = Eigen::Array<double, 8, 3>;
 BoxCorners cornersOf(const BodyBounds& bounds);
 
 /// Bounds how far any point of one body of a pair comes in the frame of the other, in a span of a motion:
@@ -22,6 +21,7 @@ struct DisplacementBound {
   double speed = 0.0;         ///< at this end, of the fastest point; by share of the segment
   double acceleration = 0.0;  ///< infinite where the span is in several segments
   double way = 0.0;
+  bool is_from_a = true;  ///< seen from A: what is said of B's points; else of A's, seen from B
 
   /// Metres after a share of the segment from this end.
   double after(double share) const { return share * (speed + 0.5 * acceleration * share); }
@@ -44,7 +44,7 @@ class MotionSpan {
                          const BoxCorners& corners_b) const;
 
  private:
-  /// What an element of the path does in the span.
+  /// Bounds what an element of the path does in the span.
   struct ElementSpan {
     double rate = 0.0;          ///< rad or m by share of the segment; nothing where the span has several
     double acceleration = 0.0;  ///< likewise

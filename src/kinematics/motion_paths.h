@@ -12,7 +12,7 @@
 
 namespace concave_distance::detail {
 
-/// What moves one piece of a robot against the next: a joint that the motion names, or one part of it.
+/// Moves one piece of a robot against the next: a joint that the motion names, or one part of it.
 struct PathElement {
   enum class Kind : std::uint8_t {
     Turn,   ///< about `axes.col(0)`, by the angle of `curve`
@@ -48,9 +48,8 @@ struct MotionPaths {
   std::vector<MotionCurve> curves;
   std::vector<PathElement> elements;
   std::vector<WaypointTurns> turns;
-  /// Of the scene's bodies; empty where it is not known where the body is.
-  std::vector<std::optional<BodyPath>> bodies;
-  std::vector<double> times;  ///< s, of the waypoints
+  std::vector<std::optional<BodyPath>> bodies;  ///< of the scene; empty where the pose is not known
+  std::vector<double> times;                    ///< s, of the waypoints
   std::vector<std::string> outside_limits;
   bool velocities_ignored = false;
 

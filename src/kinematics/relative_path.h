@@ -24,8 +24,8 @@ struct RelativePose {
   std::vector<Axis> axes;  ///< as RelativePath::elements()
 };
 
-/// What moves a body B against a body A: the joints of both behind their last common one. Body frames are
-/// those of the meshes as they are solved.
+/// Says what moves a body B against a body A: the joints of both behind their last common one. Body frames
+/// are those of the meshes as they are solved.
 class RelativePath {
  public:
   /// @param a,b paths, with the bodies' frames recentred

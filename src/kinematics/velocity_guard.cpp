@@ -14,6 +14,10 @@ namespace {
 /// m/s; slower than a millimetre in a quarter of an hour is rounding and no approach.
 constexpr double kStill = 1e-6;
 
+/// The number e: commands in a loop fall while the robot still obeys earlier ones. A loop with a delay does
+/// not overshoot where its gain, here at most 1 / (e reaction_time), times the delay is at most 1 / e.
+constexpr double kDelayFactor = 2.718281828459045;
+
 void require(bool is_allowed, const char* name, double value, const char* allowed) {
   if (!is_allowed || !std::isfinite(value)) {
     throw Error(name, "it is " + numberText(value), allowed);
@@ -55,8 +59,9 @@ Limit limitOf(const GuardPlace& place, double braking_time, const GuardSettings&
   Limit limit;
   limit.room = place.value - settings.margin;
   limit.closing = speed + drift;
-  limit.stopping_distance = (speed + drift) * settings.reaction_time + (0.5 * speed + drift) * brakes;
-  limit.scale = largestScale(limit.room, speed, drift, settings.reaction_time, brakes);
+  const double lag = kDelayFactor * settings.reaction_time;
+  limit.stopping_distance = speed * lag + drift * settings.reaction_time + (0.5 * speed + drift) * brakes;
+  limit.scale = largestScale(limit.room + drift * (lag - settings.reaction_time), speed, drift, lag, brakes);
   limit.reason = limit.scale < 1.0 ? GuardReason::Closing : GuardReason::Free;
   return limit;
 }

@@ -8,8 +8,8 @@
 
 #include "concave_distance/base/work_limit.h"
 #include "concave_distance/mesh/body_mesh.h"
-#include "concave_distance/scene/prepare_scene.h"
 #include "concave_distance/scene/scene.h"
+#include "concave_distance/scene/scene_tracker.h"
 #include "concave_distance/tracking/tracker_parameters.h"
 
 namespace concave_distance {

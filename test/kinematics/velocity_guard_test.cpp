@@ -77,6 +77,13 @@ GuardPlace placeAt(double value, double closing, double drift = 0.0) {
   return place;
 }
 
+/// The law of a guard with its default settings, as velocity_guard.md has it.
+double lawAt(double room, double closing, double drift = 0.0, double braking_time = 0.0) {
+  const double braking = std::max(braking_time, closing);  // 1 m/s^2
+  return largestScale(room - 0.1 * drift, closing, 0.0, 0.1 * std::exp(1.0) + drift * braking / closing,
+                      braking);
+}
+
 GuardSettings quick() {
   GuardSettings settings;
   settings.rise_time = 0.0;
@@ -95,8 +102,8 @@ TEST(VelocityGuard, LimitsByThePlaceThatClosesAndNotByThoseThatOpen) {
   EXPECT_EQ(decision.id, 6U);
   EXPECT_EQ(decision.reason, GuardReason::Closing);
   EXPECT_NEAR(decision.room, 0.04, 1e-15);
-  EXPECT_EQ(decision.scale, largestScale(0.04, 0.5, 0.0, 0.1, 0.5));
-  EXPECT_NEAR(decision.stopping_distance, 0.175, 1e-15);
+  EXPECT_NEAR(decision.scale, lawAt(0.04, 0.5), 1e-12);
+  EXPECT_NEAR(decision.stopping_distance, 0.05 * std::exp(1.0) + 0.125, 1e-12);
 }
 
 TEST(VelocityGuard, LeavesAnOverlapWithASignedValueAndEntersNone) {
@@ -116,14 +123,14 @@ TEST(VelocityGuard, TakesTheMoreCarefulOfCommandAndMeasurement) {
   place.measured = 0.2;
   EXPECT_EQ(guard.decide({place}, 0.0, 1.0, 1.0).scale, told);
   place.measured = 0.55;
-  EXPECT_EQ(guard.decide({place}, 0.0, 1.0, 1.0).scale, largestScale(0.08, 0.5, 0.05, 0.1, 0.5));
+  EXPECT_NEAR(guard.decide({place}, 0.0, 1.0, 1.0).scale, lawAt(0.08, 0.5, 0.05), 1e-12);
   place.closing = -0.2;
   EXPECT_EQ(guard.decide({place}, 0.0, 1.0, 1.0).scale, 1.0) << "a command that brakes is not held back";
 }
 
 TEST(VelocityGuard, CountsTheJointThatBrakesLongest) {
   VelocityGuard guard(quick());
-  EXPECT_EQ(guard.decide({placeAt(0.1, 0.2)}, 2.0, 1.0, 1.0).scale, largestScale(0.08, 0.2, 0.0, 0.1, 2.0));
+  EXPECT_NEAR(guard.decide({placeAt(0.1, 0.2)}, 2.0, 1.0, 1.0).scale, lawAt(0.08, 0.2, 0.0, 2.0), 1e-12);
 }
 
 TEST(VelocityGuard, StopsForWhatIsNotKnown) {
@@ -239,7 +246,7 @@ TEST_F(GuardedRowsTest, SlowTheApproachToEitherWallAndNoRetreat) {
   cycle(0.9);
   cycle(0.9);
   // 0.1 m from the right wall, 1.9 m from the left one.
-  EXPECT_NEAR(decide(guard, 1.0).scale, largestScale(0.08, 1.0, 0.0, 0.1, 1.0), 1e-9);
+  EXPECT_NEAR(decide(guard, 1.0).scale, lawAt(0.08, 1.0), 1e-9);
   EXPECT_EQ(decide(guard, -1.0).scale, 1.0);
   cycle(0.985);
   EXPECT_EQ(decide(guard, 0.1).scale, 0.0) << "less than the margin is left";
@@ -250,7 +257,7 @@ TEST_F(GuardedRowsTest, KnowWhatComesByItselfByItsPart) {
   setUp();
   VelocityGuard guard(quick());
   cycle(-0.5, true, 0.0);
-  cycle(-0.5, true, 0.002);  // 0.2 m/s, 0.398 m left
+  cycle(-0.5, true, 0.002);  // 0.2 m/s, 0.498 m left
   for (const ConstraintRow& row : rows->rows()) {
     if (row.state != SlotState::Used) continue;
     const bool is_left = row.pair->body_a->name == "left" || row.pair->body_b->name == "left";
@@ -258,7 +265,7 @@ TEST_F(GuardedRowsTest, KnowWhatComesByItselfByItsPart) {
     EXPECT_NEAR(row.drift, is_left ? 0.2 : 0.0, 1e-9);
     EXPECT_NEAR(left_is_a ? row.drift_a : row.drift_b, is_left ? 0.2 : 0.0, 1e-9);
   }
-  EXPECT_NEAR(decide(guard, -1.0).scale, largestScale(0.378, 1.0, 0.2, 0.1, 1.0), 1e-6);
+  EXPECT_NEAR(decide(guard, -1.0).scale, lawAt(0.478, 1.0, 0.2), 1e-6);
   EXPECT_EQ(decide(guard, 0.5).scale, 1.0);
 }
 
@@ -284,22 +291,15 @@ TEST_F(GuardedRowsTest, BoundWhatHasNoSlot) {
   EXPECT_EQ(places.reason, UnlistedReason::NoSlot);
   EXPECT_NEAR(places.lower_bound, 1.5, 1e-9);
   EXPECT_NEAR(rows->reach()(0, 0), 1.0, 1e-9) << "a sliding joint: 1 m/s for 1 m/s";
-  EXPECT_EQ(decide(guard, -2.0).scale, largestScale(1.48, 2.0, 0.0, 0.1, 2.0));
+  EXPECT_NEAR(decide(guard, -2.0).scale, lawAt(1.48, 2.0), 1e-9);
 }
 
 TEST_F(GuardedRowsTest, SayWhatACutoffHides) {
   setUp("defaults: {cutoff: 1}\n");
   cycle(0.9);
-  bool is_said = false;
-  for (const UnlistedPlaces& places : rows->unlisted()) {
-    const bool is_left = places.pair->body_a->name == "left" || places.pair->body_b->name == "left";
-    if (!is_left) continue;
-    is_said = true;
-    EXPECT_EQ(places.reason, UnlistedReason::BeyondCutoff);
-    EXPECT_GE(places.lower_bound, 1.0);
-    EXPECT_LE(places.lower_bound, 1.9 + 1e-9);
-  }
-  EXPECT_TRUE(is_said);
+  ASSERT_EQ(rows->unlisted().size(), 1U) << "of the near pair; the other one is not in the tracker's list";
+  EXPECT_EQ(rows->unlisted()[0].reason, UnlistedReason::BeyondCutoff);
+  EXPECT_EQ(rows->unlisted()[0].lower_bound, 1.0);
 }
 
 TEST_F(GuardedRowsTest, RefuseAnotherNumberOfVelocitiesAndStopForOneThatIsNotFinite) {
@@ -346,7 +346,7 @@ TEST_F(GuardedRowsTest, KeepTheMarginInAClosedLoop) {
       nearest = std::min(nearest, 1.0 - std::abs(position));
     }
     EXPECT_GE(nearest, settings.margin - 1e-9) << wanted;
-    EXPECT_LE(nearest, settings.margin + 0.005) << wanted << ": it goes where it may";
+    EXPECT_LE(nearest, settings.margin + 0.01) << wanted << ": it goes where it may";
   }
 }
 

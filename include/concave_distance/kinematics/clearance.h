@@ -83,7 +83,7 @@ enum class ClearanceStatus : std::uint8_t {
 };
 std::string_view toString(ClearanceStatus status);
 
-/// What is known of one pair over the whole motion.
+/// Holds what is known of one pair over the whole motion.
 struct PairClearance {
   std::size_t body_a = 0;  ///< in Scene::bodies
   std::size_t body_b = 0;
@@ -113,7 +113,7 @@ struct ClearanceResult {
   Eigen::Vector3d point_a = Eigen::Vector3d::Constant(kNotComputed);  ///< world, metres, at `time`
   Eigen::Vector3d point_b = Eigen::Vector3d::Constant(kNotComputed);
   Eigen::Isometry3d world_from_a = Eigen::Isometry3d::Identity();  ///< at `time`
-  /// Of the nearest pair at `time`, with its niches; in A's frame. Where it was asked for.
+  /// Holds the nearest pair at `time` with its niches, in A's frame, where that was asked for.
   std::optional<PairSolution> solution;
   std::optional<FirstBelow> first_below;  ///< with a threshold, or where there is contact
   std::vector<PairClearance> pairs;       ///< all that the motion moves against each other

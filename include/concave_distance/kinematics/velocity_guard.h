@@ -14,9 +14,11 @@ namespace concave_distance {
 
 /// Says what a guard keeps, and what it takes for granted of the robot.
 struct GuardSettings {
-  double margin = 0.02;        ///< metres that every place keeps
-  double reaction_time = 0.1;  ///< s from the poses of a row until the robot obeys
-  double deceleration = 1.0;   ///< m/s^2 that a closing speed falls by at least, once the robot brakes
+  double margin = 0.02;  ///< metres that every place keeps
+  /// s from the poses of a row until the robot obeys; its own speed counts e times as long, so that the loop
+  /// of guard and robot does not overshoot
+  double reaction_time = 0.1;
+  double deceleration = 1.0;  ///< m/s^2 that a closing speed falls by at least, once the robot brakes
   /// rad/s^2, or m/s^2 of sliding joints: where all joints brake together, the one that takes longest
   /// decides; empty: `deceleration` alone.
   std::optional<double> joint_deceleration;

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -12,7 +13,6 @@
 #include "concave_distance/base/work_limit.h"
 #include "concave_distance/scene/body_poses.h"
 #include "concave_distance/scene/cycle_counts.h"
-#include "concave_distance/scene/prepare_scene.h"
 #include "concave_distance/scene/scene.h"
 #include "concave_distance/scene/tracked_pair.h"
 
@@ -28,6 +28,26 @@ struct SceneTrackerOptions {
   /// Makes what niches need of the bodies in the background, from setScene() on; until a pair has it, its
   /// cycles at level `certified` give the distance alone. false: the first cycle with niches makes it.
   bool prepares_in_background = false;
+};
+
+/// Says how SceneTracker::prepare() works.
+struct PreparationSettings {
+  std::uint32_t threads = 0;  ///< that make parts of the bodies; 0: one per core
+  /// Seconds; what has been begun by then is finished, some 0.1 s for a body of 10,000 triangles.
+  double time_limit = std::numeric_limits<double>::infinity();
+  /// Called after each piece of work, by one thread at a time; empty: nobody.
+  std::function<void(std::size_t done, std::size_t count)> progress;
+};
+
+/// Counts what SceneTracker::prepare() has made and left.
+struct PreparationCounts {
+  std::size_t bodies = 0;        ///< meshes that it looked at
+  std::size_t made = 0;          ///< of these the ones of which something was missing
+  std::size_t left = 0;          ///< of these the ones that there was no time for
+  std::size_t lists_left = 0;    ///< pairs whose niches there was no time for
+  std::size_t memory_bytes = 0;  ///< by which the meshes have grown
+
+  bool is_complete() const { return left == 0 && lists_left == 0; }
 };
 
 /// The end of a cycle without one.

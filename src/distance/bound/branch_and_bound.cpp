@@ -28,7 +28,7 @@ BranchAndBound::BranchAndBound(const BodyMesh& a, const BodyMesh& b, const Eigen
       bounds_(frame_, nearest_, workspace, result_.cost) {}
 
 DistanceCertificate BranchAndBound::run(const TrianglePair* starts, std::size_t start_count) {
-  for (std::size_t i = 0; i < start_count; ++i) nearest_.refine(starts[i]);
+  for (std::size_t i = 0; i < start_count; ++i) nearest_.begin(starts[i]);
   if (start_count == 0) dive();
   const double start_distance = nearest_.distance();
   if (partsAtRoots()) return conclude();  // a cache can wait
@@ -69,7 +69,7 @@ void BranchAndBound::dive() {
     const std::uint32_t opened = opens_b ? b_.child(b) : a_.child(a);
     (opens_b ? b : a) = slotOf(opened, bounds_.nearestChild(opens_b ? a : b, opened, opens_b));
   }
-  nearest_.refine(nearestByCentres(leafOfA(a), leafOfB(b), frame_));
+  nearest_.begin(nearestByCentres(leafOfA(a), leafOfB(b), frame_));
 }
 
 void BranchAndBound::beginAtRoots() {

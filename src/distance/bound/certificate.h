@@ -20,10 +20,10 @@ struct CertificateRequest {
   double absolute_tolerance = 0.0;  ///< metres: the bound may stay this far below the distance
   double relative_tolerance = 0.0;  ///< of the distance less the margin; the larger of the two counts
   double margin = 0.0;              ///< metres, of both bodies together
-  /// Metres: a larger bound is not asked for.
-  double far_enough = std::numeric_limits<double>::infinity();
   /// The proof stops with the bound that it has when this is reached; nullptr is no limit.
   WorkLimit* limit = nullptr;
+  /// Metres: a larger bound is not asked for, and starts need not be refined.
+  double far_enough = std::numeric_limits<double>::infinity();
 
   /// How far below a distance its bound may stay, metres.
   double toleranceAt(double distance) const {
@@ -87,10 +87,11 @@ struct CertificateWorkspace {
 
 /// Returns the distance of the two surfaces with a proof, by branch and bound over both bodies' hierarchies
 /// (Larsen et al. 1999, with the direction between the best witnesses as a further separating axis). `starts`
-/// are pairs of triangles to begin with, the likeliest first; each is refined to its local minimum. Without
-/// starts the search dives for one. Anytime: see CertificateRequest; the bound only rises and the distance
-/// only falls. Solids that hold one another are not looked for: this is the distance of the surfaces.
-/// a_from_b must be rigid to rounding. Allocates nothing once the workspace has grown.
+/// are pairs of triangles to begin with, the likeliest first; each is refined to its local minimum, unless a
+/// bound is far enough. Without starts the search dives for one. Anytime: see CertificateRequest; the bound
+/// only rises and the distance only falls. Solids that hold one another are not looked for: this is the
+/// distance of the surfaces. a_from_b must be rigid to rounding. Allocates nothing once the workspace has
+/// grown.
 DistanceCertificate certifyDistance(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b,
                                     const TrianglePair* starts, std::size_t start_count,
                                     const CertificateRequest& request, CertificateWorkspace& workspace,

@@ -11,7 +11,11 @@ namespace concave_distance::detail {
 using Eigen::Vector3d;
 using Hierarchy = BoundingVolumeHierarchy;
 
-void NearestTriangles::refine(const TrianglePair& start) {
+void NearestTriangles::begin(const TrianglePair& start) {
+  if (request_.far_enough < kInfinity) {
+    measure(frame_.cornersOfA(start.a), frame_.cornersOfB(start.b), start.a, start.b);
+    return;
+  }
   const WitnessRefinement refined = frame_.refine(start.a, start.b, workspace_);
   cost_.triangle_pairs += refined.iterations;
   // Once more in the frame that everything else here is measured in.

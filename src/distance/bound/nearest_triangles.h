@@ -14,8 +14,9 @@ class NearestTriangles {
                    CertificateCost& cost)
       : frame_(frame), request_(request), workspace_(workspace), cost_(cost) {}
 
-  /// Measures the local minimum that a pair of triangles leads to.
-  void refine(const TrianglePair& start);
+  /// Measures the local minimum that a pair of triangles leads to, or only the pair itself where the request
+  /// has a bound that is far enough: walking there takes longer than most such proofs.
+  void begin(const TrianglePair& start);
 
   /// Returns a bound of the distance between two leaves' triangles, metres; measures those that it cannot
   /// exclude.

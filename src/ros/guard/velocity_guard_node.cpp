@@ -10,9 +10,11 @@
 int main(int argc, char** argv) {
   concave_distance::limitMemoryArenas();
   ros::init(argc, argv, "velocity_guard");
+  // They outlive the server: with the last handle ROS ends, and the message with it.
+  const ros::NodeHandle node;
+  const ros::NodeHandle private_node("~");
   try {
-    const concave_distance::GuardServer server(ros::NodeHandle(), ros::NodeHandle("~"),
-                                               ros::this_node::getName());
+    const concave_distance::GuardServer server(node, private_node, ros::this_node::getName());
     ros::spin();
   } catch (const std::exception& problem) {
     ROS_FATAL_STREAM(problem.what());

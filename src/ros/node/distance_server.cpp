@@ -69,6 +69,10 @@ DistanceServer::DistanceServer(const ros::NodeHandle& node, const ros::NodeHandl
           service_queues_, keeper_,
           {&transforms_, parameters_.reference_frame, parameters_.transform_timeout, parameters_.stale_after},
           parameters_.limits, parameters_.threads),
+      clearances_(
+          service_queues_, keeper_,
+          {&transforms_, parameters_.reference_frame, parameters_.transform_timeout, parameters_.stale_after},
+          parameters_.limits),
       scene_services_(service_queues_, keeper_, restarts_, parameters_.reference_frame),
       operation_services_(service_queues_, keeper_, transforms_, parameters_.reference_frame, rosPackagePath,
                           parameters_.mesh_access),
@@ -107,6 +111,7 @@ DistanceServer::DistanceServer(const ros::NodeHandle& node, const ros::NodeHandl
 
 DistanceServer::~DistanceServer() {
   service_queues_.gate().stop();
+  service_queues_.motionGate().stop();
 }
 
 ros::WallTimer DistanceServer::startTimer(double period, const char* name, void (DistanceServer::*act)()) {

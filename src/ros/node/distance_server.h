@@ -17,6 +17,7 @@
 #include "cycle_runner.h"
 #include "description_watch.h"
 #include "node_parameters.h"
+#include "ros/services/clearance_service.h"
 #include "ros/services/distance_queries.h"
 #include "ros/services/move_receiver.h"
 #include "ros/services/operation_services.h"
@@ -83,6 +84,7 @@ class DistanceServer {
   RestartRequests restarts_;
   ServiceQueues service_queues_;
   DistanceQueries queries_;
+  ClearanceService clearances_;
   SceneServices scene_services_;
   OperationServices operation_services_;
   DescriptionWatch descriptions_;

@@ -252,6 +252,18 @@ ParameterTable<L> ofRequests() {
           "queries in one call of `get_distances`")
           .from(1.0)
           .to(1e6),
+      number<L>(
+          "clearance_seconds", [](auto& l) -> auto& { return l.clearance_seconds; },
+          "time for one call of `get_clearance`; what is not proven by then has the status "
+          "`BUDGET_EXHAUSTED`")
+          .inUnit("s")
+          .from(1e-3)
+          .to(3600.0),
+      count<L>(
+          "largest_waypoint_count", [](auto& l) -> auto& { return l.largest_waypoint_count; },
+          "waypoints of the motion in one call of `get_clearance`")
+          .from(1.0)
+          .to(1e6),
   };
 }
 

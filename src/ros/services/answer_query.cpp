@@ -116,15 +116,6 @@ QueryAnswer outOfTime(const DistanceQuery& query, const PairHeading& heading) {
   return answer;
 }
 
-// Ids belong to what is tracked; an answer has none.
-void forgetIds(PairNiches& answer) {
-  answer.nearest.nearest_niche_id = 0;
-  answer.changes.clear();
-  for (Niche& niche : answer.niches) {
-    niche.id = 0;
-  }
-}
-
 std::uint32_t nichesWithin(const QueryContext& context) {
   return static_cast<std::uint32_t>(std::clamp<std::size_t>(context.answer_limit / kNicheBytes, 1,
                                                             std::numeric_limits<std::uint32_t>::max()));
@@ -244,6 +235,14 @@ QueryAnswer answerOrExplain(const DistanceQuery& query, const Scene& scene, cons
 }
 
 }  // namespace
+
+void forgetIds(PairNiches& answer) {
+  answer.nearest.nearest_niche_id = 0;
+  answer.changes.clear();
+  for (Niche& niche : answer.niches) {
+    niche.id = 0;
+  }
+}
 
 bool isAnswered(const PairNiches& answer) {
   return answer.nearest.has_distance != 0;

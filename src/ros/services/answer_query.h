@@ -46,6 +46,9 @@ struct QueryAnswer {
 QueryAnswer answerQuery(const DistanceQuery& query, const Scene& scene, const QueryContext& context,
                         ros::Time now) noexcept;
 
+/// Removes the ids of an answer: they belong to what is tracked.
+void forgetIds(PairNiches& answer);
+
 /// True when the answer carries a distance.
 bool isAnswered(const PairNiches& answer);
 

@@ -8,7 +8,8 @@
 namespace concave_distance {
 namespace {
 
-constexpr std::uint32_t kLightThreads = 2;  // so that reading the scene does not wait for an edit
+constexpr std::uint32_t kLightThreads = 2;   // so that reading the scene does not wait for an edit
+constexpr std::uint32_t kMotionThreads = 3;  // one motion runs, one waits, one is refused
 constexpr std::chrono::milliseconds kWatchPeriod{20};
 constexpr std::chrono::seconds kReturnPeriod{5};
 
@@ -22,11 +23,12 @@ ros::NodeHandle onQueue(const ros::NodeHandle& node, ros::CallbackQueue& queue) 
 
 ServiceQueues::ServiceQueues(const ros::NodeHandle& node, const NodeLimits& limits)
     : gate_(limits.service_threads, limits.service_queue, limits.query_seconds),
+      motion_gate_(1, 1, limits.clearance_seconds, "send motions one at a time, or cancel_clearance"),
       light_node_(onQueue(node, light_queue_)),
       heavy_node_(onQueue(node, heavy_queue_)),
       light_spinner_(kLightThreads, &light_queue_),
       // One thread per running or waiting request, and one that refuses the next.
-      heavy_spinner_(limits.service_threads + limits.service_queue + 1, &heavy_queue_),
+      heavy_spinner_(limits.service_threads + limits.service_queue + 1 + kMotionThreads, &heavy_queue_),
       watcher_([this] { watch(); }) {
   light_spinner_.start();
   heavy_spinner_.start();
@@ -34,6 +36,7 @@ ServiceQueues::ServiceQueues(const ros::NodeHandle& node, const NodeLimits& limi
 
 ServiceQueues::~ServiceQueues() {
   gate_.stop();
+  motion_gate_.stop();
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     ends_ = true;
@@ -53,12 +56,13 @@ void ServiceQueues::watch() {
   while (!ending_.wait_for(lock, kWatchPeriod, [this] { return ends_; })) {
     if (ros::isShuttingDown()) {
       gate_.stop();
+      motion_gate_.stop();
       return;
     }
     if (Clock::now() - last_look < kReturnPeriod) continue;
     last_look = Clock::now();
-    if (gate_.ended() == ended) continue;
-    ended = gate_.ended();
+    if (gate_.ended() + motion_gate_.ended() == ended) continue;
+    ended = gate_.ended() + motion_gate_.ended();
     malloc_trim(0);
   }
 }

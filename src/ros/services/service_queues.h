@@ -29,11 +29,14 @@ class ServiceQueues {
   const ros::NodeHandle& light() const { return light_node_; }
   const ros::NodeHandle& heavy() const { return heavy_node_; }
   RequestGate& gate() { return gate_; }
+  /// For motions: one at a time, another waits, beside the requests of the other gate.
+  RequestGate& motionGate() { return motion_gate_; }
 
  private:
   void watch();
 
   RequestGate gate_;
+  RequestGate motion_gate_;
   ros::CallbackQueue light_queue_;
   ros::CallbackQueue heavy_queue_;
   ros::NodeHandle light_node_;

@@ -61,6 +61,12 @@ void ConstraintTopic::publish(const ConstraintInput& input, ros::Time now) {
       cut.reason = UnlistedPair::PAIRS_CUT;
       cut.lower_bound = cut.drift = kNotComputed;
     }
+    if (input.others.beyond > 0 && input.others.lower_bound < options_.settings.distance) {
+      UnlistedPair& beyond = message->unlisted.emplace_back();
+      beyond.reason = UnlistedPair::BEYOND_CUTOFF;
+      beyond.lower_bound = input.others.lower_bound;
+      beyond.drift = kNotComputed;
+    }
     message->transforms = oldestTransform(input, now);
     message->problems.insert(message->problems.end(), states_.problems().begin(), states_.problems().end());
   }

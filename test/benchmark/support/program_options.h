@@ -21,6 +21,10 @@ class ProgramOptions {
   void add(const std::string& name, Number& value, const std::string& what, Number least = 0) {
     app_.add_option(name, value, what)->check(CLI::Range(least, std::numeric_limits<Number>::max()));
   }
+  /// A text, as the name of a file.
+  void add(const std::string& name, std::string& value, const std::string& what) {
+    app_.add_option(name, value, what);
+  }
   /// A list with commas between its values.
   template <typename Value>
   void add(const std::string& name, std::vector<Value>& values, const std::string& what) {

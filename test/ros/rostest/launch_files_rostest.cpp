@@ -2,6 +2,7 @@
 // and without one, and where a simulation has left /use_sim_time behind.
 #include <concave_distance/Distances.h>
 #include <concave_distance/ListBodies.h>
+#include <diagnostic_msgs/DiagnosticArray.h>
 #include <gtest/gtest.h>
 #include <ros/package.h>
 #include <ros/param.h>
@@ -148,6 +149,28 @@ TEST(LaunchFiles, OwnRobotHoldsFloatingJointsAtTheirOriginsUntilSomethingMovesTh
       << launched.output();
   removeRobot();
 }
+
+class BridgeLaunchFile : public testing::TestWithParam<const char*> {};
+
+TEST_P(BridgeLaunchFile, WaitsForWhatIsNotThereAndSaysSo) {
+  removeRobot();
+  ros::param::set("/use_sim_time", false);
+  Collector<diagnostic_msgs::DiagnosticArray> diagnostics("/diagnostics");
+  LaunchedFile launched({std::string(GetParam()) + ".launch"});
+  const auto says = [](const diagnostic_msgs::DiagnosticArray& message) {
+    const auto& entry = message.status.at(0);
+    return entry.name.find(GetParam()) != std::string::npos &&
+           entry.level == diagnostic_msgs::DiagnosticStatus::WARN &&
+           std::any_of(entry.values.begin(), entry.values.end(),
+                       [](const auto& value) { return value.value.find("waiting") != std::string::npos; });
+  };
+  EXPECT_TRUE(diagnostics.waitFor(says, kStart)) << launched.output();
+  launched.expectAllUp();
+  EXPECT_TRUE(launched.end());
+}
+
+INSTANTIATE_TEST_SUITE_P(Bridges, BridgeLaunchFile, testing::Values("cob_bridge", "moveit_bridge"),
+                         [](const auto& info) { return std::string(info.param); });
 
 INSTANTIATE_TEST_SUITE_P(Demos, DemoLaunchFile,
                          testing::Values("insertion.launch", "contact.launch", "interactive.launch",

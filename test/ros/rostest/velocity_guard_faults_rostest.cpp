@@ -143,7 +143,8 @@ TEST_F(GuardFaultsTest, BoundsPlacesThatAreNotListed) {
     command = {-0.1, 0.2};
   });
   // 0.5 m/s at most with 0.01 m left.
-  const double expected = (-0.05 + std::sqrt(0.0025 + 4.0 * 0.125 * 0.01)) / (2.0 * 0.125);
+  const double lag = 0.05 * std::exp(1.0);
+  const double expected = (-lag + std::sqrt(lag * lag + 4.0 * 0.125 * 0.01)) / (2.0 * 0.125);
   EXPECT_TRUE(state.waitFor([&](const GuardState& message) {
     return message.pair == "arm/door" && std::abs(message.scale - expected) < 1e-9 &&
            message.message.find("0.5 m/s at most") != std::string::npos &&

@@ -42,6 +42,12 @@ geometry_msgs::Twist along(double x) {
   return twist;
 }
 
+/// The scale of 1 m/s with so much room, 0.1 s and 1 m/s^2.
+double scaleAt(double room) {
+  const double lag = 0.1 * std::exp(1.0);
+  return -lag + std::sqrt(lag * lag + 2.0 * room);
+}
+
 class VelocityGuardTest : public ::testing::Test {
  protected:
   VelocityGuardTest() {
@@ -60,8 +66,7 @@ class VelocityGuardTest : public ::testing::Test {
 TEST_F(VelocityGuardTest, SlowsTheApproachAndNoRetreat) {
   Collector<GuardState> state("/joint_guard/state");
   Collector<std_msgs::Float64MultiArray> out("/joint_guard/joint_velocities_out");
-  // 1 m/s with 0.2 m left: s 0.1 + s^2 0.5 = 0.2.
-  const double expected = (-0.1 + std::sqrt(0.01 + 0.4)) / 1.0;
+  const double expected = scaleAt(0.2);
   {
     const Driver<std_msgs::Float64MultiArray> driver("/joint_guard/joint_velocities_in",
                                                      velocities({0.4, 0.6}));
@@ -72,7 +77,7 @@ TEST_F(VelocityGuardTest, SlowsTheApproachAndNoRetreat) {
     EXPECT_NE(last.pair.find("l_tip"), std::string::npos) << last.pair;
     EXPECT_NEAR(last.room, 0.2, 1e-9);
     EXPECT_NEAR(last.closing, 1.0, 1e-9);
-    EXPECT_NEAR(last.stopping_distance, 0.6, 1e-9);
+    EXPECT_NEAR(last.stopping_distance, 0.1 * std::exp(1.0) + 0.5, 1e-9);
     EXPECT_EQ(last.message.rfind("pair " + last.pair + ": closes at 1 m/s with 0.2", 0), 0U) << last.message;
     EXPECT_TRUE(out.waitFor([&](const std_msgs::Float64MultiArray& message) {
       return message.data.size() == 2 && std::abs(message.data[0] - 0.4 * expected) < 1e-6 &&
@@ -103,7 +108,7 @@ TEST_F(VelocityGuardTest, SendsZerosWhenCommandsStop) {
 TEST_F(VelocityGuardTest, ScalesATwistByTheLinkThatItMoves) {
   Collector<GuardState> state("/twist_guard/state");
   Collector<geometry_msgs::Twist> out("/twist_guard/cmd_vel_out");
-  const double expected = -0.1 + std::sqrt(0.01 + 0.4);
+  const double expected = scaleAt(0.2);
   {
     const Driver<geometry_msgs::Twist> driver("/twist_guard/cmd_vel_in", along(1.0));
     EXPECT_TRUE(out.waitFor([&](const geometry_msgs::Twist& message) {
