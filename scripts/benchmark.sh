@@ -29,7 +29,7 @@ mkdir -p "$results"
 "$(program tracking_benchmark)" --pairs simple --steps "$steps" --output "$results/simple_pairs.csv"
 "$(program scene_benchmark)" --cycles "$scene_cycles" --fcl-cycles 5 --output "$results/scene.csv"
 "$(program churn_benchmark)" --seconds "$churn_seconds" --output "$results/churn.csv"
-"$(program clearance_benchmark)" --motions "$motions" --output "$results/clearance.csv" \
+"$(program clearance_benchmark)" --motions "$motions" --fixed-every 20 --output "$results/clearance.csv" \
   --times-output "$results/clearance_times.csv"
 "$(program edit_benchmark)" --instants "$edit_runs" --runs "$edit_runs" --output "$results/edit.csv"
 "$(program battery_benchmark)" --runs "$runs" --niche-runs "$niche_runs" --output "$results/battery.csv" |

@@ -26,6 +26,9 @@ constexpr double kFirstSampleShare = 0.0625;
 constexpr double kLeastWayShare = 1.0 / 64.0;
 /// Metres: distances prove little of a gap in which more is moved.
 constexpr double kLongestWay = 0.5;
+/// Steps of moments in which the nearest moment is looked for where contact is open.
+constexpr double kFirstStep = 1.0 / 64.0;
+constexpr double kLastStep = 1e-7;
 constexpr std::chrono::milliseconds kReportPeriod(100);
 
 }  // namespace
@@ -182,18 +185,35 @@ void ClearanceSearch::addStarts() {
 }
 
 // The least sample is exact to a share of the tolerance; now its distance becomes the pair's at its moment.
+// Where the bracket leaves open whether there is contact, the pair is followed to its nearest moment close
+// by.
 void ClearanceSearch::sharpenLeast() {
   if (!least_) return;
-  const ClearancePair& pair = pairs_[least_->pair];
+  const std::size_t pair = least_->pair;
+  sampleExactly(pair, least_->sample.moment);
+  const auto isOpen = [&] {
+    return least_->sample.distance > 0.0 && least_->sample.distance <= parameters_.tolerance;
+  };
+  for (double step = kFirstStep; step > kLastStep; step *= 0.5) {
+    for (const double signed_step : {step, -step}) {
+      double before = std::numeric_limits<double>::infinity();
+      while (isOpen() && least_->sample.distance < before) {
+        before = least_->sample.distance;
+        sampleExactly(pair, std::clamp(least_->sample.moment + signed_step, 0.0, paths_.end()));
+      }
+    }
+  }
+}
+
+void ClearanceSearch::sampleExactly(std::size_t pair, double moment) {
   ClearanceWorkspace& workspace = workspaces_.front();
-  pair.path.evaluate(paths_, momentAt(least_->sample.moment, paths_.segmentCount()), workspace.pose);
+  pairs_[pair].path.evaluate(paths_, momentAt(moment, paths_.segmentCount()), workspace.pose);
   SampleRequest request;
   request.aim = request.need = kInfinity;
   request.allows_boxes = false;
-  ++queries_;
   const TrianglePair start = least_->sample.triangles;
-  take(sampleAt(pair, least_->sample.moment, request, &start, 1, least_->sample.is_apart, workspace, limit_),
-       least_->pair);
+  ++queries_;
+  take(sampleAt(pairs_[pair], moment, request, &start, 1, false, workspace, limit_), pair);
 }
 
 void ClearanceSearch::findLeast() {

@@ -70,6 +70,7 @@ class ClearanceSearch {
   void begin();
   void addStarts();
   void sharpenLeast();
+  void sampleExactly(std::size_t pair, double moment);
   template <typename Work>
   void runJobs(const Work& work);
   void refine(Job& job, ClearanceWorkspace& workspace) const;

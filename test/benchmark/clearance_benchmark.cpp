@@ -255,7 +255,7 @@ int benchmarkMain(int argc, char** argv) {
   ResultTable judged(
       program.output(),
       "stage,kind,tolerance_mm,motions,contacts,above,apart,wide,unseen,largest_gap_mm,sampled_more,"
-      "missed_waypoints,missed_0.05_rad,missed_0.01_rad,first_compared,first_wrong,first_open,first_later_"
+      "missed_waypoints,missed_coarse,missed_fine,first_compared,first_wrong,first_open,first_later_"
       "ms");
   ResultTable times(options.times_output,
                     "stage,tolerance_mm,method,motions,median_ms,p99_ms,mean_ms,over_ours,mean_distances");
