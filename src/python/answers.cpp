@@ -94,11 +94,10 @@ void bindAnswers(py::module_& module) {
       .def_property_readonly(
           "niches", [](const py::object& self) { return viewOf(answersIn(self).niches, self); },
           "(m,) niches of all rows, ascending by distance within each, with the columns id (persistent while "
-          "the "
-          "niche lives), distance, signed_distance, point_a (3), point_b (3), normal (3), closing_speed, "
+          "the niche lives), distance, signed_distance, point_a (3), point_b (3), normal (3), closing_speed, "
           "extent, prominence, kind (NicheKind), outward (Outwardness), origin (NicheOrigin), visible, "
-          "birth_cycle, "
-          "proven_local_minimum; with the parameter signed_values also signed_state (SignedState), "
+          "birth_cycle, proven_local_minimum; with the parameter signed_values also signed_state "
+          "(SignedState), "
           "signed_point_a "
           "(3), signed_point_b (3), signed_pivot (3), signed_gradient (3; rate of signed_distance by the "
           "velocity of "

@@ -138,8 +138,7 @@ constexpr const char* kOptionsDoc =
     "each_pair: proves every pair's own least distance; niches: adds those of the nearest pair\n"
     "threads: 0 for one per core\n"
     "progress: called about ten times a second with fraction, distance, lower_bound, queries; an exception "
-    "ends the "
-    "computation\n"
+    "ends the computation\n"
     "Returns Clearance. Raises Error.";
 
 }  // namespace
@@ -216,8 +215,7 @@ void bindClearance(py::module_& module) {
       (std::string(
            "Finds the least distance over a motion of one body and what is attached to it, with a proof.\n\n"
            "body: its name; poses: (w, 4, 4) or (w, 7) in the world, a row for each waypoint; between them "
-           "the "
-           "translation runs straight and the rotation at constant speed\n"
+           "the translation runs straight and the rotation at constant speed\n"
            "times: (w,) seconds, ascending; None: 0, 1, 2, ...\n") +
        kOptionsDoc)
           .c_str());

@@ -111,10 +111,8 @@ void bindClearanceResult(py::module_& module) {
       .def_property_readonly(
           "pairs", [](const py::object& self) { return viewOf(clearanceIn(self).pairs, self); },
           "(k,) all pairs that the motion moves against each other, with the columns body_a, body_b (places "
-          "in "
-          "Scene.body_names), lower_bound (proven for the whole motion), distance (at `time`; NaN where it "
-          "was not "
-          "computed), time.")
+          "in Scene.body_names), lower_bound (proven for the whole motion), distance (at `time`; NaN where "
+          "it was not computed), time.")
       .def_property_readonly(
           "not_located", [](Found found) { return namesOf(found, found.result.not_located); },
           "Names of bodies whose poses are not known: nothing is proven of their pairs.")

@@ -200,10 +200,10 @@ void bindConstraints(py::module_& module) {
           "since the row has its slot, or its signed value has jumped), value (signed distance, metres), "
           "lower_bound "
           "(proven: no place of the pair is nearer), normal (3; from A to B), point_a (3), point_b (3) in "
-          "the world, "
-          "point_a_in_frame (3), point_b_in_frame (3) in the frames of the bodies: their links, drift (m/s, "
-          "positive "
-          "when approaching: what no joint does), drift_a, drift_b (its parts, of A's and B's carriers).")
+          "the world, point_a_in_frame (3), point_b_in_frame (3) in the frames of the bodies: their links, "
+          "drift (m/s, "
+          "positive when approaching: what no joint does), drift_a, drift_b (its parts, of A's and B's "
+          "carriers).")
       .def_property_readonly(
           "jacobian",
           [](const py::object& self) {
