@@ -37,8 +37,11 @@ struct Options {
 };
 
 SceneState stateOf(const PythonScene& scene, const Surroundings& given) {
-  const py::object positions =
-      given.positions.is_none() ? py::cast(scene.joints->restPositions()) : given.positions;
+  py::object positions = given.positions;
+  if (positions.is_none()) {
+    const Eigen::VectorXd rest = scene.joints->restPositions();
+    positions = py::array_t<double>(rest.size(), rest.data());
+  }
   const JointPositions joints(scene, positions, given.roots);
   if (joints.isArray())
     throw Error("start", "there are several rows of positions",
@@ -99,11 +102,11 @@ PoseMotion poseMotion(const std::string& body, const py::object& poses, const py
 std::function<void(const ClearanceProgress&)> callOf(const py::object& progress, std::atomic<bool>& stop,
                                                      std::exception_ptr& problem) {
   if (progress.is_none()) return nullptr;
-  return [function = progress.ptr(), &stop, &problem](const ClearanceProgress& now) {
+  return [function = py::handle(progress), &stop, &problem](const ClearanceProgress& now) {
     if (problem) return;
     const py::gil_scoped_acquire lock;
     try {
-      py::handle(function)(now.fraction, now.distance, now.lower_bound, now.queries);
+      function(now.fraction, now.distance, now.lower_bound, now.queries);
     } catch (...) {
       problem = std::current_exception();
       stop = true;

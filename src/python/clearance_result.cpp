@@ -39,7 +39,7 @@ py::object pairOf(const PythonClearance& found, bool is_there, std::size_t a, st
 }
 
 py::array_t<double> pointOf(const Eigen::Vector3d& point) {
-  return {3, point.data()};
+  return py::array_t<double>(3, point.data());
 }
 
 double firstBelow(const PythonClearance& found, double FirstBelow::*value) {

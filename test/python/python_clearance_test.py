@@ -26,7 +26,7 @@ SLIDE = """
 
 SCENE = """
 bodies:
-  - {name: near, sphere: {radius: 0.3}}
+  - {name: near, frame: world, sphere: {radius: 0.3}}
   - {name: far, sphere: {radius: 0.2}}
 pairs:
   - {between: [near, far], name: spheres}
@@ -77,6 +77,11 @@ class Clearance(unittest.TestCase):
             self.assertTrue(np.isnan(found.first_below))
             self.assertIsNone(found.first_below_bodies)
             self.assertIsNone(found.solution)
+        lost = load_text(cd.load_scene, SCENE.replace("frame: world, ", ""), ".yaml")
+        unknown = cd.find_clearance_of_body(lost, "far", poses)
+        self.assertEqual((unknown.status, unknown.not_located), (cd.ClearanceStatus.NO_PAIRS, ["near"]))
+        self.assertTrue(np.isnan(unknown.distance))
+        self.assertIsNone(unknown.bodies)
         where = np.full((2, 7), np.nan)
         where[0] = [0, 0.1, 0, 0, 0, 0, 1]
         moved = cd.find_clearance_of_body(self.spheres, "far", poses, bodies=where, tolerance=1e-6)
