@@ -254,7 +254,10 @@ bool SceneTracker::prepareBodies(const PairDemand& demand, const PreparationSett
   for (const auto& pair : pairs_) {
     const TrackerParameters& parameters = pair->settings.tracker;
     if (!pair->origin->enabled || !provesDistance(parameters.accuracy)) continue;
-    if (!is_whole || pair->preparation) continue;
+    // One that a thread in the background has only begun is not waited for.
+    const bool has_all =
+        pair->preparation && pair->preparation->isDone() && pair->preparation->isSearchDone();
+    if (!is_whole || has_all) continue;
     auto task = std::make_shared<PreparationTask>(pair->body_a->mesh, pair->body_b->mesh, parameters);
     task->run();  // finds all that it makes
     pair->preparation = std::move(task);

@@ -182,19 +182,22 @@ TEST_F(GuardFaultsTest, StopsWhenTheClockJumpsBackAndGoesOnWithNewRows) {
 }
 
 TEST(GuardFaults, WrongParametersEndTheNode) {
-  const auto run = [](const std::string& arguments) {
-    return runNode("__name:=wrong _command:=joint_velocities " + arguments, "velocity_guard");
+  // Parameters of a command line stay on the server: each run has a name of its own.
+  int count = 0;
+  const auto run = [&](const std::string& arguments) {
+    return runNode("__name:=wrong_" + std::to_string(++count) + " " + arguments, "velocity_guard");
   };
+  const std::string command = "_command:=joint_velocities ";
   const auto expect = [](const Ended& ended, const std::string& part) {
     EXPECT_EQ(ended.exit_code, 1) << ended.output;
     EXPECT_NE(ended.output.find(part), std::string::npos) << ended.output;
   };
-  expect(run(""), "~joints: it is empty");
-  expect(run("_joints:=lift _margin:=-1"), "~margin");
-  expect(run("_joints:=lift _deceleration:=0"), "~deceleration");
-  expect(run("_joints:=lift _rate:=fast"), "~rate");
-  expect(runNode("__name:=wrong _command:=twist", "velocity_guard"), "~twist_frame");
-  expect(runNode("__name:=wrong _command:=steer", "velocity_guard"), "~command");
+  expect(run(command), "~joints: it is empty");
+  expect(run(command + "_joints:=lift _margin:=-1"), "~margin");
+  expect(run(command + "_joints:=lift _deceleration:=0"), "~deceleration");
+  expect(run(command + "_joints:=lift _rate:=fast"), "~rate");
+  expect(run("_command:=twist"), "~twist_frame");
+  expect(run("_command:=steer"), "~command");
 }
 
 }  // namespace
