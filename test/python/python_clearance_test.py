@@ -40,6 +40,10 @@ def load_text(load, text, suffix):
         return load(file.name, cache="off", strict=True)
 
 
+class Alarm(Exception):
+    pass
+
+
 class Clearance(unittest.TestCase):
     def setUp(self):
         self.slide = load_text(cd.load_robot, SLIDE, ".urdf")
@@ -110,16 +114,13 @@ class Clearance(unittest.TestCase):
             self.assertAlmostEqual(tracker.nearest(at[None])["distance"][0], found.distance, delta=1e-9)
             self.assertAlmostEqual(np.nanmin(found.pairs["lower_bound"]), found.lower_bound, delta=1e-12)
 
-    def test_progress(self):
+    def test_progress_and_exceptions_that_end_it(self):
         calls = []
-        found = cd.find_clearance(self.slide, [[-1.0], [1.0]], progress=lambda *now: calls.append(now))
-        self.assertEqual(found.status, cd.ClearanceStatus.OK)
-        for fraction, _, bound, queries in calls:
-            self.assertTrue(0.0 <= fraction <= 1.0 and bound <= 0.55 and queries >= 0)
 
-    def test_exceptions_end_it(self):
-        class Alarm(Exception):
-            pass
+        def note(*now):
+            calls.append(now)
+            if len(calls) == 3:
+                raise Alarm
 
         def ring(*_):
             raise Alarm
@@ -128,15 +129,19 @@ class Clearance(unittest.TestCase):
         robot = cd.load_robot(os.path.join(PACKAGE, "urdf", "kr5.urdf"), mesh_folders=[os.path.join(PACKAGE, "meshes")])
         waypoints = random.uniform(-0.8, 0.8, (2000, len(robot.position_names)))  # takes long
         with self.assertRaises(Alarm):
-            cd.find_clearance(robot, waypoints, tolerance=1e-6, each_pair=True, progress=ring)
-        before = signal.signal(signal.SIGALRM, ring)
+            cd.find_clearance(robot, waypoints, tolerance=1e-6, each_pair=True, progress=note)
+        self.assertEqual(len(calls), 3)
+        for before, (fraction, distance, bound, queries) in zip([(0.0, np.inf, 0.0, 0)] + calls, calls):
+            self.assertTrue(before[0] <= fraction <= 1.0 and distance <= before[1] and queries >= before[3])
+            self.assertTrue(np.isnan(bound) or bound <= distance)
+        handler = signal.signal(signal.SIGALRM, ring)
         try:
             signal.setitimer(signal.ITIMER_REAL, 0.3)
             with self.assertRaises(Alarm):
                 cd.find_clearance(robot, waypoints, tolerance=1e-6, each_pair=True)
         finally:
             signal.setitimer(signal.ITIMER_REAL, 0.0)
-            signal.signal(signal.SIGALRM, before)
+            signal.signal(signal.SIGALRM, handler)
         ended = cd.find_clearance(robot, waypoints, tolerance=1e-6, each_pair=True, time_budget=0.05)
         self.assertEqual(ended.status, cd.ClearanceStatus.BUDGET_EXHAUSTED)
         self.assertTrue(np.isnan(ended.lower_bound) or ended.lower_bound <= ended.distance)

@@ -173,7 +173,8 @@ class Pairs(unittest.TestCase):
         tracker = cd.PairTracker(*bodies)
         repair = tracker.body_a.repair
         results = []
-        thread = threading.Thread(target=lambda: results.append(tracker.solve(random_poses(2000, 2.0)[0])))
+        poses = random_poses(2000, 2.0)[0]
+        thread = threading.Thread(target=lambda solve: results.append(solve(poses)), args=(tracker.solve,))
         thread.start()
         del bodies, tracker
         gc.collect()
