@@ -34,23 +34,25 @@ using Numbers = std::vector<double> TrajectoryPoint::*;
 bool takeNumbers(const trajectory_msgs::JointTrajectory& trajectory, Numbers numbers, const char* what,
                  Eigen::MatrixXd& rows) {
   const std::size_t columns = trajectory.joint_names.size();
-  std::size_t given = 0;
-  rows.resize(static_cast<Eigen::Index>(trajectory.points.size()), static_cast<Eigen::Index>(columns));
+  bool are_all_given = true;
   for (std::size_t i = 0; i < trajectory.points.size(); ++i) {
     const std::vector<double>& values = trajectory.points[i].*numbers;
-    if (values.empty() && columns > 0) continue;
-    if (values.size() != columns) {
+    if (values.empty() && columns > 0) {
+      are_all_given = false;
+    } else if (values.size() != columns) {
       throw Error("trajectory.points[" + std::to_string(i) + "]." + what,
                   detail::counted(values.size(), "number") + " for " + detail::counted(columns, "joint"),
                   "give one for each of joint_names");
     }
-    ++given;
-    rows.row(static_cast<Eigen::Index>(i)) =
-        Eigen::Map<const Eigen::RowVectorXd>(values.data(), static_cast<Eigen::Index>(columns));
   }
-  if (given == trajectory.points.size()) return true;
-  rows.resize(0, 0);
-  return false;
+  if (!are_all_given) return false;
+  // Only here is the matrix no larger than the request.
+  rows.resize(static_cast<Eigen::Index>(trajectory.points.size()), static_cast<Eigen::Index>(columns));
+  for (Eigen::Index row = 0; row < rows.rows(); ++row) {
+    const std::vector<double>& values = trajectory.points[static_cast<std::size_t>(row)].*numbers;
+    rows.row(row) = Eigen::Map<const Eigen::RowVectorXd>(values.data(), static_cast<Eigen::Index>(columns));
+  }
+  return true;
 }
 
 bool isAnyGiven(const trajectory_msgs::JointTrajectory& trajectory, Numbers numbers) {
@@ -62,6 +64,11 @@ bool isAnyGiven(const trajectory_msgs::JointTrajectory& trajectory, Numbers numb
 std::vector<double> timesOrNone(std::vector<double> times) {
   const bool is_any_set = std::any_of(times.begin(), times.end(), [](double time) { return time != 0.0; });
   return is_any_set || times.size() == 1 ? times : std::vector<double>();
+}
+
+/// Two stamps may be farther apart than a ros::Duration holds.
+double secondsBetween(const ros::Time& from, const ros::Time& to) {
+  return (static_cast<double>(to.sec) - from.sec) + 1e-9 * (static_cast<double>(to.nsec) - from.nsec);
 }
 
 std::uint8_t codeOf(ClearanceStatus status) {
@@ -173,7 +180,7 @@ PoseMotion poseMotionOf(const GetClearanceRequest& request, const Eigen::Isometr
         reference_from_frame * poseFromMessage(stamped.pose, "poses[" + std::to_string(i) + "]");
     motion.positions.emplace_back(pose.translation());
     motion.rotations.emplace_back(Eigen::Quaterniond(pose.linear()).normalized());
-    motion.times.push_back((stamped.header.stamp - request.poses.front().header.stamp).toSec());
+    motion.times.push_back(secondsBetween(request.poses.front().header.stamp, stamped.header.stamp));
   }
   motion.times = timesOrNone(std::move(motion.times));
   return motion;
