@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Measures what all rows are worth beside the nearest one (doc/control.md): runs launch/rows.launch with each setting below,
-# headless, writes doc/results/rows*.csv and draws doc/images/rows.png and rows_arm.png. Some minutes; the figures do not
-# depend on the machine.
+# headless, writes doc/results/rows*.csv and draws doc/images/rows.png and rows_arm.png. Some minutes. The figures are those
+# of simulated time; of the arm's path with all rows digits may differ where the search is ready in another cycle.
 #   scripts/measure_rows.sh [folder for the CSV files]
 # Needs what scripts/demo.sh builds and python3-matplotlib. ROS_MASTER_URI says on which port; no master may run there.
 set -euo pipefail

@@ -48,8 +48,14 @@ void readHeader(std::string_view line, const std::string& header, const std::str
   }
 }
 
-// A device may never end, and opening a pipe without a writer blocks. Pipes that the shell has opened
-// (/dev/stdin, /dev/fd/63 of <(...)) are allowed.
+std::string_view withoutByteOrderMark(std::string_view text) {
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+  if (text.substr(0, kByteOrderMark.size()) == kByteOrderMark) text.remove_prefix(kByteOrderMark.size());
+  return text;
+}
+
+}  // namespace
+
 void requireReadableFile(const std::string& path) {
   namespace fs = std::filesystem;
   std::error_code failure;
@@ -60,14 +66,6 @@ void requireReadableFile(const std::string& path) {
   }
   throw Error(path, "it is not a regular file", "name a file, not a folder, a device or a pipe");
 }
-
-std::string_view withoutByteOrderMark(std::string_view text) {
-  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-  if (text.substr(0, kByteOrderMark.size()) == kByteOrderMark) text.remove_prefix(kByteOrderMark.size());
-  return text;
-}
-
-}  // namespace
 
 CsvTable readCsv(const std::string& path, const std::string& header) {
   requireReadableFile(path);

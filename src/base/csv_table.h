@@ -16,6 +16,10 @@ struct CsvTable {
   double at(std::size_t row, std::size_t column) const { return values[row * columns.size() + column]; }
 };
 
+/// Refuses a device, which may never end, and a pipe, which blocks without a writer. Pipes that the shell has
+/// opened (/dev/stdin, /dev/fd/63 of <(...)) are allowed, and so is a file that is missing. @throws Error
+void requireReadableFile(const std::string& path);
+
 /// Empty lines are passed over, spaces around a cell and a byte order mark too. Numbers need not be finite.
 /// @param header what the first line has to be, e.g. "t,x,y,z"; empty: any names
 /// @throws Error naming file and line: not a readable file, another header, a cell that is no number, a row

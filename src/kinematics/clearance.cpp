@@ -11,6 +11,7 @@
 #include "concave_distance/base/error.h"
 #include "concave_distance/scene/pair_rules.h"
 #include "concave_distance/tracking/pair_tracker.h"
+#include "first_below_search.h"
 #include "motion_paths.h"
 
 namespace concave_distance {
@@ -20,6 +21,8 @@ using detail::BodyPath;
 using detail::ClearanceBody;
 using detail::ClearancePair;
 using detail::ClearanceSearch;
+using detail::FirstBelowSearch;
+using detail::GapSampler;
 using detail::MotionPaths;
 
 using Clock = WorkLimit::Clock;
@@ -196,7 +199,7 @@ void describePairs(const MotionPaths& paths, const std::vector<ClearancePair>& p
 }
 
 void describeFirst(const MotionPaths& paths, const std::vector<ClearancePair>& pairs,
-                   const ClearanceSearch::First& first, ClearanceResult& result) {
+                   const FirstBelowSearch::First& first, ClearanceResult& result) {
   FirstBelow& below = result.first_below.emplace();
   below.proven_until = paths.timeOf(first.proven_until);
   if (!first.moment) return;
@@ -214,28 +217,28 @@ ClearanceResult search(const Scene& scene, const SceneKinematics& joints, const 
   const std::vector<ClearancePair> pairs = moved.find(result.not_located);
   const std::map<std::size_t, ClearanceBody> bodies = moved.takeBodies();
   if (!pairs.empty()) {
-    ClearanceSearch search(
+    GapSampler sampler(
         paths, pairs, parameters,
         WorkLimit(start, parameters.time_budget, std::numeric_limits<std::size_t>::max(), parameters.stop));
+    ClearanceSearch search(sampler);
     search.findLeast();
-    const bool is_cut = search.isCut();
     result.lower_bound = search.lower();
     describePairs(paths, pairs, search, result);
     const auto least = search.least();
     if (least) describeLeast(scene, paths, pairs[least->pair], least->sample, parameters, result);
     const bool is_proven = least && result.lower_bound >= result.distance - parameters.tolerance;
     result.status = least && result.distance <= 0.0 ? ClearanceStatus::Penetrating
-                    : is_cut || !is_proven          ? ClearanceStatus::BudgetExhausted
+                    : search.isCut() || !is_proven  ? ClearanceStatus::BudgetExhausted
                                                     : ClearanceStatus::Ok;
     // Contact is where a distance is 0, and nothing is less.
     const double contact = std::numeric_limits<double>::min();
     const bool is_contact = result.status == ClearanceStatus::Penetrating;
     if (parameters.threshold || is_contact) {
-      search.findFirstBelow(std::max(contact, parameters.threshold.value_or(0.0)));
-      describeFirst(paths, pairs, search.first(), result);
+      FirstBelowSearch first(sampler, std::max(contact, parameters.threshold.value_or(0.0)));
+      describeFirst(paths, pairs, first.find(search.gapsBelow(), search.progress()), result);
     }
-    result.queries = search.queries();
-    result.box_queries = search.boxQueries();
+    result.queries = sampler.queries();
+    result.box_queries = sampler.boxQueries();
   }
   result.seconds = std::chrono::duration<double>(Clock::now() - start).count();
   return result;

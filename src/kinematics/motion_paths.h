@@ -56,7 +56,6 @@ struct MotionPaths {
   std::size_t segmentCount() const { return times.size() > 1 ? times.size() - 1 : 1; }
   double end() const { return static_cast<double>(times.size() - 1); }  ///< the last moment
   double timeOf(double moment) const;
-  double momentOf(double time) const;  ///< clamped to the motion
 };
 
 /// @throws Error as findClearance()

@@ -68,7 +68,9 @@ std::vector<double> requireTimes(const std::vector<double>& times, std::size_t c
   }
   for (std::size_t i = 0; i < count; ++i) {
     const std::string where = "waypoint " + std::to_string(i);
-    if (!std::isfinite(times[i])) throw Error(where, "its time is not finite", "give seconds");
+    if (!(std::abs(times[i]) <= kLargestCoordinate)) {
+      throw Error(where, "its time is not finite, or beyond 1e18 s", "give seconds");
+    }
     if (i == 0 || times[i] > times[i - 1]) continue;
     if (times[i] == times[i - 1] && are_equal(i)) continue;
     throw Error(where,

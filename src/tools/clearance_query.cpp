@@ -48,6 +48,7 @@ std::pair<std::string, std::string> assignment(const std::string& option, const 
 }
 
 std::string readText(const std::string& path) {
+  requireReadableFile(path);
   std::ifstream file(path);
   std::string text{std::istreambuf_iterator<char>(file), {}};
   if (!file || text.empty()) throw Error(path, "it cannot be read, or is empty", "name a URDF file");
@@ -263,6 +264,7 @@ void addOptions(CLI::App& app, ClearanceQueryOptions& options) {
   app.add_option("--threshold", parameters.threshold, "metres: when is a pair below it first?");
   app.add_option("--time-budget", parameters.time_budget, "seconds (none)");
   app.add_option("--sample-limit", parameters.sample_limit, "pairs at one time that are looked at")
+      ->check(CLI::PositiveNumber)
       ->capture_default_str();
   app.add_flag("--each-pair", parameters.each_pair, "prove the least distance of every pair");
   app.add_option("--threads", parameters.threads, "0: one per core")->capture_default_str();

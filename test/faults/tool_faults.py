@@ -16,6 +16,11 @@ group = Group("tools", beside=True)
 SECONDS = 20.0
 HEADER = "t,x,y,z,qx,qy,qz,qw\n"
 GOOD = HEADER + "0,2,0,0,0,0,0,1\n1,2,0.5,0,0,0,0,1\n"
+PAIR = """bodies:
+  - {name: plate, frame: world, box: {size: [1, 1, 0.1]}}
+  - {name: ball, frame: ball, sphere: {radius: 0.25}}
+"""
+MOTION = HEADER + "0,2,0,1,0,0,0,1\n1,-2,0,1,0,0,0,1\n"
 CUBE = "".join("v %d %d %d\n" % (i, j, k) for i in (0, 1) for j in (0, 1) for k in (0, 1)) + \
     "f 1 2 4 3\nf 5 7 8 6\nf 1 5 6 2\nf 3 4 8 7\nf 1 3 7 5\nf 2 6 8 4\n"
 
@@ -29,6 +34,8 @@ class Bench:
         self.folder = tempfile.mkdtemp(dir=arena.path("tools"))
         self.write("cube.obj", CUBE)
         self.write("poses.csv", GOOD)
+        self.write("pair.yaml", PAIR)
+        self.write("motion.csv", MOTION)
 
     def path(self, name):
         return os.path.join(self.folder, name)
@@ -83,6 +90,11 @@ def query(*changes, poses="poses.csv", output="out.csv"):
             "--cache", "off", *changes)
 
 
+def clearance(*changes, motion="motion.csv", output="answer.csv"):
+    return ("clearance_query", "--scene", "pair.yaml", "--motion", motion, "--body", "ball", "--output", output,
+            "--cache", "off", *changes)
+
+
 def refuse(name, command, fast=False, inputs=None, **expectation):
     def act(arena):
         bench = Bench(arena)
@@ -94,7 +106,7 @@ def refuse(name, command, fast=False, inputs=None, **expectation):
 
 # Command lines
 
-for tool in ("distance_query", "mesh_tool", "simulate"):
+for tool in ("clearance_query", "distance_query", "mesh_tool", "simulate"):
     refuse(tool + "_without_arguments", (tool,), fast=True)
     refuse(tool + "_unknown_option", (tool, "--frobnicate"))
     refuse(tool + "_empty_arguments", (tool, "", "", ""))
@@ -106,6 +118,13 @@ OPTIONS = {"accuracy": ("perfect", ""), "cutoff": ("-1", "nan", "far"), "toleran
 for option, values in OPTIONS.items():
     for value in values:
         refuse("distance_query_%s_%s" % (option, value or "empty"), query("--" + option, value), left_behind=("out.csv",))
+CLEARANCE_OPTIONS = {"tolerance": ("0", "-1", "nan", "inf"), "threshold": ("-1", "nan", "inf"), "time-budget": ("0", "-1", "nan"),
+                     "sample-limit": ("0", "-1", "1e99"), "threads": ("-1", "many"), "position": ("wing", "wing=0", "=1", "wing="),
+                     "description": ("urdf", "urdf=", "urdf=none.urdf", "urdf=/", "urdf=/dev/zero")}
+for option, values in CLEARANCE_OPTIONS.items():
+    for value in values:
+        refuse("clearance_query_%s_%s" % (option, value), clearance("--" + option, value), left_behind=("answer.csv",),
+               fast=value == "urdf=/dev/zero")
 for value in ("0", "-1", "nan", "1e-9"):
     refuse("refine_max_edge_" + value, ("mesh_tool", "refine", "cube.obj", "out.obj", "--max-edge", value),
            left_behind=("out.obj",))
@@ -135,6 +154,18 @@ for label, path in {"missing": "none.stl", "folder": "/", "dev_zero": "/dev/zero
                                 "--output", "out.csv"), words=(path,), left_behind=("out.csv",))
 
 
+for label in ("empty", "wrong_header", "no_header", "missing_column", "text", "binary", "cut"):
+    refuse("motion_" + label, clearance(), inputs={"motion.csv": POSES[label]}, words=("motion.csv",), left_behind=("answer.csv",))
+WAYPOINTS = {"nan": "1,nan,0,1,0,0,0,1", "inf": "1,0,inf,1,0,0,0,1", "1e19": "1,0,0,1e19,0,0,0,1", "earlier": "-1,0,0,1,0,0,0,1",
+             "time_nan": "nan,0,0,1,0,0,0,1", "time_1e308": "1e308,0,0,1,0,0,0,1", "at_the_same_time": "0,0,0,1,0,0,0,1",
+             "quaternion_2": "1,0,0,1,0,0,0,2", "zero_quaternion": "1,0,0,1,0,0,0,0"}
+for label, line in WAYPOINTS.items():
+    refuse("waypoint_" + label, clearance(), inputs={"motion.csv": HEADER + "0,2,0,1,0,0,0,1\n" + line + "\n"},
+           words=("waypoint 1",), left_behind=("answer.csv",), fast=label == "earlier")
+refuse("motion_of_joints_though_a_body_is_named", clearance(), inputs={"motion.csv": "t,wing\n0,1\n"}, words=("motion.csv",))
+refuse("motion_of_a_body_that_is_none", clearance("--body", "nobody"))
+
+
 def rows_of(bench, name="out.csv"):
     with open(bench.path(name), newline="") as file:
         return list(csv.DictReader(file))
@@ -162,6 +193,17 @@ for label, line in {"1e200": "0,1e200,0,0,0,0,0,1", "minus_1e308": "0,-1e308,1e3
     group.add("pose_" + label, lambda arena, line=line: answered(arena, line, ("ok", "invalid_pose")), fast=label == "1e200")
 
 
+@group.attack(deadline=60.0)
+def motion_of_a_million_waypoints(arena):
+    """Cut short by its budget: the bracket is right. The ball is never nearer to the plate than 0.7 m."""
+    bench = Bench(arena)
+    bench.write("motion.csv", HEADER + "".join("%d,%d,0,1,0,0,0,1\n" % (index, index % 3) for index in range(10**6)))
+    bench.works(*clearance("--time-budget", "2"), seconds=50.0)
+    row = rows_of(bench, "answer.csv")[0]
+    expect(row["status"] in ("ok", "budget_exhausted"), row["status"])
+    expect(0.0 <= float(row["lower_bound"]) <= 0.7 + 1e-9 <= float(row["distance"]) + 2e-9, "[%(lower_bound)s, %(distance)s]" % row)
+
+
 @group.attack()
 def poses_from_windows(arena):
     """Lines that end with CR LF, and none at the end."""
@@ -179,6 +221,9 @@ def fifo(arena, tool_line, name):
 
 
 group.add("poses_are_a_fifo", lambda arena: fifo(arena, query(poses="pipe.csv"), "pipe.csv"), deadline=60.0)
+group.add("motion_is_a_fifo", lambda arena: fifo(arena, clearance(motion="pipe.csv"), "pipe.csv"), deadline=60.0)
+group.add("description_is_a_fifo", lambda arena: fifo(arena, clearance("--description", "urdf=pipe.urdf"), "pipe.urdf"),
+          deadline=60.0, fast=True)
 group.add("mesh_is_a_fifo", lambda arena: fifo(arena, ("mesh_tool", "inspect", "pipe.stl"), "pipe.stl"), deadline=60.0)
 group.add("scene_is_a_fifo", lambda arena: fifo(arena, ("simulate", "pipe.yaml", "--output", "o.csv"), "pipe.yaml"), deadline=60.0)
 
@@ -187,6 +232,9 @@ group.add("scene_is_a_fifo", lambda arena: fifo(arena, ("simulate", "pipe.yaml",
 SIMULATED = os.path.join(os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)))), "config",
                          "bouncing_ball.yaml")
 WRITERS = {
+    "clearance_query": lambda path: clearance(output=path),
+    "clearance_query_pairs": lambda path: clearance("--pairs-output", path),
+    "clearance_query_niches": lambda path: clearance("--niches-output", path),
     "distance_query": lambda path: query(output=path),
     "distance_query_niches": lambda path: query("--niches-output", path),
     "mesh_tool_repair": lambda path: ("mesh_tool", "repair", "cube.obj", path),
@@ -218,7 +266,7 @@ def disk_full_midway(arena, writer):
     """The disk is full after 20 bytes: no incomplete file stays."""
     bench = Bench(arena)
     command = WRITERS[writer](output_name(writer))
-    others = [name for name in ("out.csv", "main.csv") if name in command]  # may fail first
+    others = [name for name in ("out.csv", "main.csv", "answer.csv") if name in command]  # may fail first
     bench.refused(*command, words=() if others else (output_name(writer),), left_behind=[output_name(writer)] + others,
                   file_bytes=20, seconds=60.0)
 
@@ -253,6 +301,9 @@ for label, output in {"": "poses.csv", "_by_a_link": "link.csv", "_by_a_hard_lin
                       "_by_another_path": "folder/../poses.csv"}.items():
     group.add("output_is_its_own_poses" + label, lambda arena, output=output: untouched(
         arena, "poses.csv", query(output=output)), fast=not label)
+for label in ("motion.csv", "pair.yaml"):
+    group.add("output_is_its_own_" + label.split(".")[0], lambda arena, label=label: untouched(
+        arena, label, clearance(output=label)))
 group.add("output_is_the_mesh", lambda arena: untouched(arena, "cube.obj", query(output="cube.obj")))
 group.add("niches_output_is_the_poses", lambda arena: untouched(
     arena, "poses.csv", query("--niches-output", "poses.csv")))

@@ -44,13 +44,6 @@ struct PoseMotion {
   std::vector<Eigen::Quaterniond, Eigen::aligned_allocator<Eigen::Quaterniond>> rotations;  ///< unit
 };
 
-/// Names a pair and a time to look at first, where a small distance is expected.
-struct ClearanceStart {
-  std::size_t body_a = 0;  ///< in Scene::bodies
-  std::size_t body_b = 0;
-  double time = 0.0;  ///< s, of the motion
-};
-
 struct ClearanceProgress {
   double fraction = 0.0;           ///< of all pairs' motions that is proven no nearer than the answer
   double distance = kNotComputed;  ///< metres: least distance found so far; infinite before the first
@@ -65,9 +58,8 @@ struct ClearanceParameters {
   double time_budget = std::numeric_limits<double>::infinity();  ///< s
   /// Pairs at one time that are looked at, by boxes or exactly; some 300 bytes each.
   std::uint64_t sample_limit = 2'000'000;
-  bool each_pair = false;  ///< proves every pair's own least distance to the tolerance
-  bool niches = false;     ///< adds all niches of the nearest pair at the least time
-  std::vector<ClearanceStart> starts;
+  bool each_pair = false;                   ///< proves every pair's own least distance to the tolerance
+  bool niches = false;                      ///< adds all niches of the nearest pair at the least time
   std::uint32_t threads = 0;                ///< 0: one per core
   const std::atomic<bool>* stop = nullptr;  ///< set: ends as if the time had run out
   /// Called by the calling thread, about ten times a second.

@@ -109,7 +109,7 @@ void GuardOutputs::publishMarker(const GuardDecision& decision, const Constraint
   marker.color.r = static_cast<float>(1.0 - decision.scale);
   marker.color.g = static_cast<float>(decision.scale);
   TextStream text;
-  text << std::round(100.0 * decision.scale) << " % " << pairOf(decision, rows);
+  text << "speed " << std::round(100.0 * decision.scale) << " % " << pairOf(decision, rows);
   marker.text = text.str();
   marker_publisher_.publish(marker);
 }

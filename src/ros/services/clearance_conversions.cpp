@@ -12,6 +12,7 @@
 #include "kinematics/wording.h"
 #include "request_conversions.h"
 #include "ros/messages/conversions.h"
+#include "ros/time_difference.h"
 
 namespace concave_distance {
 namespace {
@@ -34,23 +35,25 @@ using Numbers = std::vector<double> TrajectoryPoint::*;
 bool takeNumbers(const trajectory_msgs::JointTrajectory& trajectory, Numbers numbers, const char* what,
                  Eigen::MatrixXd& rows) {
   const std::size_t columns = trajectory.joint_names.size();
-  std::size_t given = 0;
-  rows.resize(static_cast<Eigen::Index>(trajectory.points.size()), static_cast<Eigen::Index>(columns));
+  bool are_all_given = true;
   for (std::size_t i = 0; i < trajectory.points.size(); ++i) {
     const std::vector<double>& values = trajectory.points[i].*numbers;
-    if (values.empty() && columns > 0) continue;
-    if (values.size() != columns) {
+    if (values.empty() && columns > 0) {
+      are_all_given = false;
+    } else if (values.size() != columns) {
       throw Error("trajectory.points[" + std::to_string(i) + "]." + what,
                   detail::counted(values.size(), "number") + " for " + detail::counted(columns, "joint"),
                   "give one for each of joint_names");
     }
-    ++given;
-    rows.row(static_cast<Eigen::Index>(i)) =
-        Eigen::Map<const Eigen::RowVectorXd>(values.data(), static_cast<Eigen::Index>(columns));
   }
-  if (given == trajectory.points.size()) return true;
-  rows.resize(0, 0);
-  return false;
+  if (!are_all_given) return false;
+  // Only here is the matrix no larger than the request.
+  rows.resize(static_cast<Eigen::Index>(trajectory.points.size()), static_cast<Eigen::Index>(columns));
+  for (Eigen::Index row = 0; row < rows.rows(); ++row) {
+    const std::vector<double>& values = trajectory.points[static_cast<std::size_t>(row)].*numbers;
+    rows.row(row) = Eigen::Map<const Eigen::RowVectorXd>(values.data(), static_cast<Eigen::Index>(columns));
+  }
+  return true;
 }
 
 bool isAnyGiven(const trajectory_msgs::JointTrajectory& trajectory, Numbers numbers) {
@@ -173,7 +176,7 @@ PoseMotion poseMotionOf(const GetClearanceRequest& request, const Eigen::Isometr
         reference_from_frame * poseFromMessage(stamped.pose, "poses[" + std::to_string(i) + "]");
     motion.positions.emplace_back(pose.translation());
     motion.rotations.emplace_back(Eigen::Quaterniond(pose.linear()).normalized());
-    motion.times.push_back((stamped.header.stamp - request.poses.front().header.stamp).toSec());
+    motion.times.push_back(secondsBetween(request.poses.front().header.stamp, stamped.header.stamp));
   }
   motion.times = timesOrNone(std::move(motion.times));
   return motion;
