@@ -7,13 +7,13 @@ set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 size=${1:-quick}
 case $size in
-  quick) overlaps=500 lattices=300 hole_facets=6,20 protrusions=8,16 tree_seeds=10 runs=200 niche_runs=60 steps=200 window=4 proof_poses=200 sizes=1000,10000,100000 spacings=0,0.02 rings=100000 wall=2 island_runs=2 brackets=20000 cycle_seconds=5 scene_cycles=50 churn_seconds=20 edit_runs=1 motions=24 ;;
+  quick) overlaps=500 lattices=300 hole_facets=6,20 protrusions=8,16 tree_seeds=10 runs=200 niche_runs=60 steps=200 window=4 proof_poses=200 sizes=1000,10000,100000 spacings=0,0.02 rings=100000 wall=2 island_runs=2 brackets=20000 cycle_seconds=5 scene_cycles=50 churn_seconds=20 edit_runs=1 motions=24 guard_runs=8 ;;
   full) overlaps=10000 lattices=2000 hole_facets=6,12,20,40 protrusions=1,4,8,16,32 tree_seeds=50 runs=1000 niche_runs=500 steps=500 window=10 proof_poses=7000 sizes=1000,10000,100000,1000000
-    spacings=0,0.01 rings=1000000 wall=6 island_runs=20 brackets=1000000 cycle_seconds=60 scene_cycles=300 churn_seconds=600 edit_runs=2 motions=1000 ;;
+    spacings=0,0.01 rings=1000000 wall=6 island_runs=20 brackets=1000000 cycle_seconds=60 scene_cycles=300 churn_seconds=600 edit_runs=2 motions=1000 guard_runs=200 ;;
   *) echo "usage: scripts/benchmark.sh [quick|full]" >&2; exit 2 ;;
 esac
 program() { find "$root/build" -type f -perm -u+x -name "$1" | head -n 1; }
-for name in tracking scene churn clearance edit battery bracket budget front generation descent islands certificate scale exactness complete accuracy; do
+for name in tracking scene churn clearance guard edit battery bracket budget front generation descent islands certificate scale exactness complete accuracy; do
   [ -n "$(program "${name}_benchmark")" ] || { echo "${name}_benchmark is not built: run scripts/build.sh" >&2; exit 1; }
 done
 results=$root/build/results_quick
@@ -31,6 +31,7 @@ mkdir -p "$results"
 "$(program churn_benchmark)" --seconds "$churn_seconds" --output "$results/churn.csv"
 "$(program clearance_benchmark)" --motions "$motions" --fixed-every 20 --output "$results/clearance.csv" \
   --times-output "$results/clearance_times.csv"
+"$(program guard_benchmark)" --runs "$guard_runs" --output "$results/guard.csv"
 "$(program edit_benchmark)" --instants "$edit_runs" --runs "$edit_runs" --output "$results/edit.csv"
 "$(program battery_benchmark)" --runs "$runs" --niche-runs "$niche_runs" --output "$results/battery.csv" |
   tee "$results/battery.txt"

@@ -22,6 +22,7 @@ set -euo pipefail
   debian_build=(
     "${debian_node[@]}"
     libcgal-dev libalglib-dev libfcl-dev  # convex partition, constraint trees (CONCAVE_DISTANCE_WITH_CGAL)
+    pybind11-dev python3-dev python3-numpy  # the Python package (CONCAVE_DISTANCE_WITH_PYTHON)
   )
   debian_test=(
     libgtest-dev librapidcheck-dev libfcl-dev libboost-dev libbenchmark-dev
@@ -31,6 +32,7 @@ set -euo pipefail
     python3-yaml  # digests of experiments in the test `results`
     python3-rosmaster python3-rospy python3-tf2-msgs python3-rosgraph-msgs python3-dynamic-reconfigure  # scripts/faults.sh
     python3-sensor-msgs  # pick_parts.py
+    python3-matplotlib  # examples/plot_niches.py
     python3-diagnostic-msgs python3-geometry-msgs python3-shape-msgs python3-std-msgs python3-tf2-ros  # the bridges
   )
   debian_demo=(
@@ -57,10 +59,10 @@ set -euo pipefail
     ros-noetic-roscpp ros-noetic-rosgraph-msgs ros-noetic-roslib ros-noetic-sensor-msgs ros-noetic-shape-msgs ros-noetic-std-msgs ros-noetic-std-srvs ros-noetic-tf2
     ros-noetic-octomap ros-noetic-tf2-eigen ros-noetic-tf2-ros ros-noetic-topic-tools ros-noetic-trajectory-msgs ros-noetic-visualization-msgs
   )
-  noetic_build=("${noetic_node[@]}" libcgal-dev libalglib-dev libfcl-dev)
+  noetic_build=("${noetic_node[@]}" libcgal-dev libalglib-dev libfcl-dev python3-dev python3-numpy)
   noetic_test=(
     git locales python3-yaml libgtest-dev libfcl-dev libboost-dev libbenchmark-dev ros-noetic-rostest ros-noetic-rosmaster ros-noetic-rospy ros-noetic-tf2-msgs
-    ros-noetic-diagnostic-msgs ros-noetic-tf2-ros
+    ros-noetic-diagnostic-msgs ros-noetic-tf2-ros python3-matplotlib
   )
   noetic_demo=(
     ros-noetic-roslaunch ros-noetic-rospy ros-noetic-rosservice ros-noetic-rostopic ros-noetic-rosbash ros-noetic-rviz

@@ -121,6 +121,7 @@ const std::vector<std::string>& foldersFromTheGround() {
                                                    "thesis/src/annealing",
                                                    kThesis,
                                                    "tools",
+                                                   "python",
                                                    kTopFolder,
                                                    "ros/tf",
                                                    "ros/messages",

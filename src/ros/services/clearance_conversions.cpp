@@ -12,6 +12,7 @@
 #include "kinematics/wording.h"
 #include "request_conversions.h"
 #include "ros/messages/conversions.h"
+#include "ros/time_difference.h"
 
 namespace concave_distance {
 namespace {
@@ -64,11 +65,6 @@ bool isAnyGiven(const trajectory_msgs::JointTrajectory& trajectory, Numbers numb
 std::vector<double> timesOrNone(std::vector<double> times) {
   const bool is_any_set = std::any_of(times.begin(), times.end(), [](double time) { return time != 0.0; });
   return is_any_set || times.size() == 1 ? times : std::vector<double>();
-}
-
-/// Two stamps may be farther apart than a ros::Duration holds.
-double secondsBetween(const ros::Time& from, const ros::Time& to) {
-  return (static_cast<double>(to.sec) - from.sec) + 1e-9 * (static_cast<double>(to.nsec) - from.nsec);
 }
 
 std::uint8_t codeOf(ClearanceStatus status) {

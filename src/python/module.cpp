@@ -1,0 +1,20 @@
+#include "bindings.h"
+
+PYBIND11_MODULE(_concave_distance, module) {
+  namespace py = pybind11;
+  using namespace concave_distance::python;
+  module.doc() = "What the package concave_distance gives its users; import that.";
+  bindError(module);
+  bindEnums(module);
+  bindAnswers(module);
+  bindBodies(module);
+  bindPairs(module);
+  bindScenes(module);
+  bindSceneTracker(module);
+  bindRows(module);
+  bindClearanceResult(module);
+  bindClearance(module);
+  for (const auto& entry : py::dict(module.attr("__dict__"))) {
+    if (PyType_Check(entry.second.ptr()) != 0) entry.second.attr("__module__") = "concave_distance";
+  }
+}

@@ -1,0 +1,117 @@
+#include "parameter_arguments.h"
+
+#include <cmath>
+#include <cstdint>
+#include <variant>
+#include <vector>
+
+#include "base/number_text.h"
+#include "base/parameter.h"
+#include "concave_distance/base/error.h"
+#include "tracking/tracker_parameter_table.h"
+
+namespace concave_distance::python {
+namespace {
+
+namespace py = pybind11;
+
+const ParameterTable<TrackerParameters>& parametersOf(Keywords allowed) {
+  static const ParameterTable<TrackerParameters> of_a_pair =
+      joined<TrackerParameters>({trackerParameters(),
+                                 marginParameters(),
+                                 {flag<TrackerParameters>(
+                                     "niches_wanted", [](auto& t) -> auto& { return t.niches_wanted; },
+                                     "false: only the distance is computed")}});
+  return allowed == Keywords::OfPair ? of_a_pair : trackerParameters();
+}
+
+[[noreturn]] void refuse(const ParameterInfo& info, py::handle value, const std::string& where) {
+  throw Error(where + "." + info.name, "the value is " + py::repr(value).cast<std::string>(),
+              "allowed: " + allowedValues(info));
+}
+
+bool isWhole(py::handle value) {
+  return PyIndex_Check(value.ptr()) != 0;
+}
+
+ParameterValue countOf(const ParameterInfo& info, py::handle value, const std::string& where) {
+  const auto whole = py::reinterpret_steal<py::object>(PyNumber_Index(value.ptr()));
+  const unsigned long long count = whole ? PyLong_AsUnsignedLongLong(whole.ptr()) : 0;
+  if (PyErr_Occurred() != nullptr) {
+    PyErr_Clear();
+    refuse(info, value, where);
+  }
+  return std::uint64_t{count};
+}
+
+ParameterValue valueOf(const ParameterInfo& info, py::handle value, const std::string& where) {
+  if (value.is_none() && info.type == ParameterType::Number && !info.word.empty()) return info.word;
+  if (py::isinstance<py::str>(value)) return value.cast<std::string>();
+  const bool is_flag = info.type == ParameterType::Flag;
+  if (PyBool_Check(value.ptr()) != 0 ||
+      py::str(py::type::of(value).attr("__name__")).equal(py::str("bool_"))) {
+    if (!is_flag) refuse(info, value, where);
+    return value.cast<bool>();
+  }
+  if (info.type == ParameterType::Count && isWhole(value)) return countOf(info, value, where);
+  const double number = PyFloat_AsDouble(value.ptr());
+  if (PyErr_Occurred() != nullptr) {
+    PyErr_Clear();
+    refuse(info, value, where);
+  }
+  if (info.type != ParameterType::Number) refuse(info, value, where);
+  if (number > 0.0 && std::isinf(number) && info.word == "none") return info.word;
+  return number;
+}
+
+py::object toPythonValue(const ParameterInfo& info, const ParameterValue& value) {
+  if (const auto* number = std::get_if<double>(&value)) return py::float_(*number);
+  if (const auto* count = std::get_if<std::uint64_t>(&value)) return py::int_(*count);
+  if (const auto* is_set = std::get_if<bool>(&value)) return py::bool_(*is_set);
+  const std::string text = toText(value);
+  if (info.type == ParameterType::Number) return py::none();
+  return py::str(text);
+}
+
+}  // namespace
+
+void setParameters(const py::kwargs& keywords, Keywords allowed, const std::string& where,
+                   TrackerParameters& parameters) {
+  const ParameterTable<TrackerParameters>& table = parametersOf(allowed);
+  for (const auto& [key, value] : keywords) {
+    const auto name = py::str(key).cast<std::string>();
+    const Parameter<TrackerParameters>* parameter = findParameter(table, name);
+    if (parameter == nullptr) {
+      std::vector<std::string> names;
+      for (const auto& known : table) names.push_back(known.info.name);
+      throw Error(where, "there is no parameter '" + name + "'", "there are: " + joinedText(names, ", "));
+    }
+    parameter->assign(parameters, valueOf(parameter->info, value, where), where + ".");
+  }
+}
+
+py::dict valuesOf(const TrackerParameters& parameters) {
+  py::dict values;
+  for (const auto& parameter : parametersOf(Keywords::OfPair))
+    values[py::str(parameter.info.name)] = toPythonValue(parameter.info, parameter.get(parameters));
+  return values;
+}
+
+py::list describeParameters() {
+  const TrackerParameters defaults;
+  py::list descriptions;
+  for (const auto& parameter : parametersOf(Keywords::OfPair)) {
+    const ParameterInfo& info = parameter.info;
+    py::dict one;
+    one["name"] = info.name;
+    one["unit"] = info.unit;
+    one["default"] = toPythonValue(info, parameter.get(defaults));
+    one["allowed"] = allowedValues(info);
+    one["description"] = info.sentence;
+    one["is_expert"] = info.is_expert;
+    descriptions.append(one);
+  }
+  return descriptions;
+}
+
+}  // namespace concave_distance::python
