@@ -18,7 +18,7 @@
 namespace concave_distance {
 namespace {
 
-constexpr std::uint32_t kQueueLength = 1;
+constexpr std::uint32_t kCloudQueueLength = 1;
 constexpr std::size_t kMostNamed = 8;  // bodies in a remark
 
 // Ends the use of a message whose cloud is not in the scene any more.
@@ -46,7 +46,7 @@ CloudReceiver::CloudReceiver(ros::NodeHandle node, const SceneBody& body, SceneS
   report_.topic = node.resolveName(settings_->topic);
   thread_ = std::thread([this] { work(); });
   subscriber_ = node.subscribe<topic_tools::ShapeShifter>(
-      settings_->topic, kQueueLength,
+      settings_->topic, kCloudQueueLength,
       [this](const topic_tools::ShapeShifter::ConstPtr& message) { receive(message); }, ros::VoidConstPtr(),
       ros::TransportHints().tcpNoDelay());
 }

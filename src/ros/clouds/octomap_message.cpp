@@ -36,10 +36,11 @@ std::vector<std::string> fieldsOf(const std::string& definition) {
   std::istringstream lines(definition);
   for (std::string line; std::getline(lines, line);) {
     if (line.compare(0, 3, "===") == 0) break;
-    std::istringstream words(line.substr(0, line.find('#')));
+    const std::string said = line.substr(0, line.find('#'));
+    std::istringstream words(said);
     std::string type;
     std::string name;
-    if (!(words >> type >> name) || name.find('=') != std::string::npos) continue;
+    if (said.find('=') != std::string::npos || !(words >> type >> name)) continue;
     if (type == "std_msgs/Header") type = "Header";
     fields.push_back(type + " " + name);
   }

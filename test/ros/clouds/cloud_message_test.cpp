@@ -53,12 +53,13 @@ PointCloud2 cloudOf(const std::vector<Vector3d>& points, std::uint32_t width, bo
   cloud.width = width;
   cloud.height = static_cast<std::uint32_t>(points.size()) / width;
   cloud.is_bigendian = static_cast<std::uint8_t>(big_endian);
-  cloud.point_step = 4 + 3 * sizeof(Number);
+  constexpr auto kSize = static_cast<std::uint32_t>(sizeof(Number));
+  cloud.point_step = 4 + 3 * kSize;
   cloud.row_step = width * cloud.point_step + 8;
   const std::uint8_t type = sizeof(Number) == 4 ? PointField::FLOAT32 : PointField::FLOAT64;
   const char* names[] = {"x", "y", "z"};
   cloud.fields.push_back(field("intensity", 0, PointField::FLOAT32));
-  for (std::uint32_t k = 0; k < 3; ++k) cloud.fields.push_back(field(names[k], 4 + k * sizeof(Number), type));
+  for (std::uint32_t k = 0; k < 3; ++k) cloud.fields.push_back(field(names[k], 4 + k * kSize, type));
   cloud.data.assign(std::size_t{cloud.row_step} * cloud.height, 0xff);
   for (std::size_t i = 0; i < points.size(); ++i) {
     for (int k = 0; k < 3; ++k) {
