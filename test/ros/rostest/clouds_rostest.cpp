@@ -234,8 +234,8 @@ TEST(Clouds, MalformedMessagesAreRefusedAndTheLastOneStays) {
   expect_refusal(cloud, "frame_id");
   std::vector<Point> many(300'000);
   for (std::size_t i = 0; i < many.size(); ++i)
-    many[i] = {0.1F * static_cast<float>(i % 100), 0.1F * static_cast<float>(i / 100 % 100),
-               1.0F + 0.1F * static_cast<float>(i / 10000)};
+    many[i] = {0.05F + 0.1F * static_cast<float>(i % 100), 0.05F + 0.1F * static_cast<float>(i / 100 % 100),
+               1.05F + 0.1F * static_cast<float>(i / 10000)};
   expect_refusal(cloudOf(many, "world"), "more than 200000 voxels");
   EXPECT_TRUE(cell.waitForStatus("probe_seen", PairStatus::STALE_TRANSFORM, "cloud 'seen'"));
   cell.sensor.see({{1.05F, 0.05F, 0.05F}});
