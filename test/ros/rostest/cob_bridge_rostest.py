@@ -24,7 +24,7 @@ import moveit_definitions  # noqa: E402
 from cob_messages import registration_class  # noqa: E402
 
 DISTANCES = "cob_control_msgs/ObstacleDistances"
-# What a subscriber of cob_control_msgs has compiled in.
+# A subscriber of cob_control_msgs has this compiled in.
 FIELDS = """ObstacleDistance[] distances
 {line}MSG: cob_control_msgs/ObstacleDistance
 Header header
