@@ -272,7 +272,7 @@ ClearanceResult findClearance(const Scene& scene, const SceneKinematics& joints,
   const auto start = Clock::now();
   requireParameters(parameters);
   const MotionPaths paths = detail::pathsOf(scene, joints, state, motion);
-  // What moves is no longer rigid with what shares its frame.
+  // A body that moves is no longer rigid with those that share its frame.
   Scene moved = scene;
   const std::size_t body = *scene.findBody(motion.body);
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {

@@ -110,7 +110,7 @@ ClearanceSample sampleIn(const MotionPaths& paths, const ClearancePair& pair, co
     const bool is_same = count == 1 && starts[0].a == end->triangles.a && starts[0].b == end->triangles.b;
     if (!is_same) starts[count++] = end->triangles;
   }
-  // Who holds whom cannot change while no point comes as far as the other surface.
+  // Neither body can come inside the other while no point comes as far as its surface.
   const auto stays = [&](const ClearanceSample& end, const DisplacementBound& bound, double share) {
     const bool is_near = bound.way < end.lower || bound.after(share) < end.lower;
     return end.is_apart && end.lower > 0.0 && is_near;

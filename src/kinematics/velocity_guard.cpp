@@ -36,7 +36,7 @@ void check(const GuardSettings& settings) {
   require(settings.rise_time >= 0.0, "rise_time", settings.rise_time, "give seconds, 0 or more");
 }
 
-/// What one place allows, and what is said of it.
+/// Holds what one place allows, and what is said of it.
 struct Limit {
   double scale = 1.0;
   GuardReason reason = GuardReason::Free;
@@ -51,7 +51,7 @@ Limit limitOf(const GuardPlace& place, double braking_time, const GuardSettings&
   if (!std::isfinite(place.value) || !std::isfinite(place.closing)) return {0.0, GuardReason::NotFinite};
   if (place.closing <= kStill) return {};
   if (!std::isfinite(place.drift)) return {0.0, GuardReason::Unknown, place.value - settings.margin};
-  // What the robot does already counts where it is more than what it is told.
+  // The speed that the robot has counts where it is more than what it is told.
   const double own = place.measured - place.drift;
   const double speed = own > place.closing ? own : place.closing;
   const double drift = std::max(0.0, place.drift);

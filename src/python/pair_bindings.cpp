@@ -47,7 +47,7 @@ std::vector<double> readTimes(const py::object& times, std::size_t count) {
   return read;
 }
 
-/// What Python has as PairTracker: usable from any thread, one at a time.
+/// Python has this as PairTracker: usable from any thread, one at a time.
 class PythonPair {
  public:
   PythonPair(const PythonBody& a, const PythonBody& b, const std::string& name, const py::kwargs& keywords)

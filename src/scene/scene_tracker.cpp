@@ -22,7 +22,7 @@ void requireCount(const std::string& what, std::size_t given, std::size_t needed
               "give one for each, in their order");
 }
 
-/// Of the cycles that prepare() runs: the first is cold, and the others let the buffers of warm ones grow, at
+/// prepare() runs so many cycles: the first is cold, and the others let the buffers of warm ones grow, at
 /// last of those with an end.
 constexpr int kPreparingCycles = 6;
 constexpr int kPreparingCyclesWithEnd = 3;

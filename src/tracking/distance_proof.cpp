@@ -59,7 +59,7 @@ void DistanceProof::prove(const PairFrame& frame, const TrackerParameters& param
   }
   error_ = kProofError * proofScale(frame.a, frame.b, frame.a_from_b);
   has_last_ = current_ = true;
-  // Who holds whom cannot change while no point comes as far as the other surface.
+  // Neither body can come inside the other while no point comes as far as its surface.
   if (!(displacement + error_ < last_bound)) {
     const std::optional<bool> holds = is_round ? isRoundContained(frame.a, frame.b, frame.a_from_b)
                                                : isContained(frame.a, frame.b, frame.a_from_b, limit);

@@ -67,7 +67,7 @@ JointMotion jointMotion(const MotionStage& stage, const Motion& motion) {
   return given;
 }
 
-/// What is counted of a kind of motions at a tolerance.
+/// Counts what a kind of motions shows at a tolerance.
 struct Judged {
   std::size_t motions = 0;
   std::size_t contacts = 0;

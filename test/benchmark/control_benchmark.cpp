@@ -74,7 +74,7 @@ constexpr std::array<const char*, kQuantities> kNames{
     "involuntary switches", "waits",      "lists put off"};
 constexpr int kTimes = kRows + 1;  // the first quantities
 
-/// What one cycle has of each.
+/// Holds what one cycle takes of each.
 using Sample = std::array<float, kQuantities>;
 
 /// Counters of the calling thread.

@@ -7,6 +7,7 @@ import unittest
 
 import concave_distance as cd
 import numpy as np
+from slide_robot import SLIDE
 
 SCENE = """
 bodies:
@@ -14,20 +15,6 @@ bodies:
   - {name: far, sphere: {radius: 0.2}}
 pairs:
   - {between: [near, far], name: spheres}
-"""
-
-# A ball on a slide along x above another on the base.
-ROBOT = """
-<robot name="slide">
-  <link name="base"><collision><geometry><sphere radius="0.1"/></geometry></collision></link>
-  <link name="carriage"><collision><geometry><sphere radius="0.01"/></geometry></collision></link>
-  <link name="ball"><collision><geometry><sphere radius="0.05"/></geometry></collision></link>
-  <joint name="slide" type="prismatic">
-    <parent link="base"/><child link="carriage"/><origin xyz="0 0 0.5"/><axis xyz="1 0 0"/>
-    <limit lower="-1" upper="1" effort="1" velocity="1"/>
-  </joint>
-  <joint name="rod" type="fixed"><parent link="carriage"/><child link="ball"/><origin xyz="0 0 0.2"/></joint>
-</robot>
 """
 
 
@@ -77,7 +64,7 @@ class Scenes(unittest.TestCase):
         self.assertLessEqual(answers.bounds[0], 4.5)
 
     def test_joint_positions(self):
-        robot = cd.load_robot(self.write("robot.urdf", ROBOT), cache="off", strict=True)
+        robot = cd.load_robot(self.write("robot.urdf", SLIDE), cache="off", strict=True)
         self.assertEqual(robot.position_names, ["slide"])
         self.assertEqual(robot.rest_positions.tolist(), [0.0])
         positions = np.linspace(-1.0, 1.0, 21)[:, None]
@@ -162,7 +149,7 @@ class Scenes(unittest.TestCase):
 
     def test_errors(self):
         scene = cd.load_scene(self.write("scene.yaml", SCENE), cache="off")
-        robot = cd.load_robot(self.write("robot.urdf", ROBOT), cache="off")
+        robot = cd.load_robot(self.write("robot.urdf", SLIDE), cache="off")
         wrong = self.write("wrong.yaml", SCENE.replace("radius: 0.3", "radios: 0.3"))
         no_pose = np.tile([0.0, 0, 0, 0, 0, 0, 1], (2, 1))
         no_pose[1, 6] = 3.0

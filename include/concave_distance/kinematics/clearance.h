@@ -133,7 +133,7 @@ struct ClearanceResult {
 [[nodiscard]] ClearanceResult findClearance(const Scene& scene, const SceneKinematics& joints,
                                             const SceneState& state, const JointMotion& motion,
                                             const ClearanceParameters& parameters = {});
-/// The same for a body on no robot, or one that a robot's link carries: it leaves the link.
+/// Does so for a body on no robot, or one that a robot's link carries: it leaves the link.
 [[nodiscard]] ClearanceResult findClearance(const Scene& scene, const SceneKinematics& joints,
                                             const SceneState& state, const PoseMotion& motion,
                                             const ClearanceParameters& parameters = {});

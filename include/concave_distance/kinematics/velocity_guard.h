@@ -97,7 +97,7 @@ class VelocityGuard {
   /// @throws Error for another number of velocities
   const GuardDecision& decide(const ConstraintRows& rows, const Eigen::Ref<const Eigen::VectorXd>& velocities,
                               double stamp, double now);
-  /// The same for places that the caller has made. @param braking_time s that the command needs to rest, by
+  /// Decides by places that the caller has made. @param braking_time s that the command needs to rest, by
   /// what brakes longest; 0: as `deceleration` says
   const GuardDecision& decide(const std::vector<GuardPlace>& places, double braking_time, double stamp,
                               double now);

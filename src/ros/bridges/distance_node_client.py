@@ -71,7 +71,7 @@ class DistanceNodeClient:
         scene = read_scene(answer, self._prefix)
         on, off = listed_pairs(answer)
         if known is None:
-            # Of pairs that were off before, those of the bridge's own bodies that nothing holds are its own.
+            # The bridge owns, of pairs that were off before, those of its bodies that nothing holds.
             free = {name for name, body in scene.bodies.items() if not body.link}
             scene.off = frozenset(pair for pair in off if free & set(pair))
         else:

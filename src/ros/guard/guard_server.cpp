@@ -8,6 +8,7 @@
 #include "base/number_text.h"
 #include "guard_words.h"
 #include "ros/callback_guard.h"
+#include "ros/time_difference.h"
 
 namespace concave_distance {
 namespace {
@@ -109,7 +110,7 @@ void GuardServer::onTwist(const geometry_msgs::TwistStamped& message) {
 }
 
 bool GuardServer::hasCommand(ros::Time now) const {
-  return command_ && std::abs((now - command_->time).toSec()) <= parameters_.command_timeout;
+  return command_ && std::abs(secondsBetween(command_->time, now)) <= parameters_.command_timeout;
 }
 
 std::string GuardServer::faultOf(const Command& command) const {
@@ -142,7 +143,7 @@ void GuardServer::act(ros::Time now) {
   fault_.clear();
   hangs_.clear();
   const GuardDecision decision = decide(now);
-  const double age = rows_ ? (now - rows_->transforms).toSec() : 0.0;
+  const double age = rows_ ? secondsBetween(rows_->transforms, now) : 0.0;
   words_ = wordsFor(decision, rows_.get(), parameters_.guard, age, fault_);
   if (isFault(decision.reason)) ROS_WARN_STREAM_THROTTLE(kGuardLogPeriod, "The scale is 0: " << words_);
   outputs_.publish(decision, rows_.get(), words_, now);

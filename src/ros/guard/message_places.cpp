@@ -124,7 +124,7 @@ const MessagePlaces::Places& MessagePlaces::ofTwist(const Constraints& message, 
       [&](const UnlistedPair& pair, GuardPlace& place) {
         const bool moves_a = twist.moves(pair.frame_a);
         const bool moves_b = twist.moves(pair.frame_b);
-        // Of a link that joints move and no twist, nothing is known of what is not listed.
+        // Nothing is known of what is not listed for a link that joints move and no twist.
         if (!moves_a && !moves_b && isReached(pair)) place.kind = GuardPlace::Kind::Unknown;
         if (moves_a == moves_b) return;
         place.closing = moves_a ? largestSpeed(twist.twist, pair.centre_a, pair.radius_a)

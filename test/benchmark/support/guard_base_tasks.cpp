@@ -74,7 +74,7 @@ std::string baseUrdf(bool with_beam) {
          "<axis xyz='0 0 1'/></joint></robot>";
 }
 
-/// What the tasks of the base have in common: three joints, x, y and theta in the hall's frame.
+/// Holds what the tasks of the base have in common: three joints, x, y and theta in the hall's frame.
 class BaseTask : public GuardTask {
  public:
   const Scene& scene() const override { return scene_; }

@@ -31,7 +31,7 @@ class GuardTask {
 
 /// The demo arm in its cell: from anywhere to anywhere.
 std::unique_ptr<GuardTask> makeArmTask();
-/// The same arm with its hand in the crate, which it has to leave.
+/// Begins with the arm's hand in the crate, which it has to leave.
 std::unique_ptr<GuardTask> makeCrateTask();
 /// A mobile base between three walls, with a driver who steers roughly: it has to come out.
 std::unique_ptr<GuardTask> makeNarrowTask();

@@ -15,7 +15,7 @@ struct Sampling {
   double ceiling = 1e3;    ///< metres; larger distances are not looked for, and the least is this then
 };
 
-/// What sampling sees of a motion. Each number occurs in the motion; the truth may be less.
+/// Holds what sampling sees of a motion. Each number occurs in the motion; the truth may be less.
 struct Sampled {
   double least = std::numeric_limits<double>::infinity();        ///< metres
   double least_time = 0.0;                                       ///< seconds

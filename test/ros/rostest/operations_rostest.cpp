@@ -17,26 +17,11 @@
 #include <set>
 
 #include "node_access.h"
+#include "operation_messages.h"
 #include "tf_player.h"
 
 namespace concave_distance::operations_rostest {
 namespace {
-
-geometry_msgs::Pose at(double x, double y = 0.0, double z = 0.0) {
-  geometry_msgs::Pose pose;  // its orientation is left at zeros, as messages come
-  pose.position.x = x;
-  pose.position.y = y;
-  pose.position.z = z;
-  return pose;
-}
-
-SceneOperation operation(std::uint8_t kind, const std::string& body, const std::string& other = "") {
-  SceneOperation message;
-  message.operation = kind;
-  message.body = body;
-  message.other = other;
-  return message;
-}
 
 shape_msgs::SolidPrimitive primitive(std::uint8_t type, const std::vector<double>& dimensions) {
   shape_msgs::SolidPrimitive message;

@@ -37,7 +37,7 @@ std::vector<std::string> cellsOf(const std::string& line) {
   return cells;
 }
 
-// What a run has written.
+// Holds what a run has written.
 struct RecordedRun {
   std::string text;
   std::string state;

@@ -21,6 +21,7 @@
 #include <vector>
 
 #include "node_access.h"
+#include "operation_messages.h"
 #include "started_node.h"
 #include "support/temporary_folder.h"
 #include "tf_player.h"
@@ -29,22 +30,6 @@ namespace concave_distance::state_rostest {
 namespace {
 
 const std::string kSecond = "/second/";
-
-geometry_msgs::Pose at(double x, double y = 0.0, double z = 0.0) {
-  geometry_msgs::Pose pose;
-  pose.position.x = x;
-  pose.position.y = y;
-  pose.position.z = z;
-  return pose;
-}
-
-SceneOperation operation(std::uint8_t kind, const std::string& body, const std::string& other = "") {
-  SceneOperation message;
-  message.operation = kind;
-  message.body = body;
-  message.other = other;
-  return message;
-}
 
 /// A tetrahedron whose corners no single precision holds.
 SceneOperation wedge(const std::string& body) {
