@@ -118,6 +118,9 @@ def add_probe():
     operation = SceneOperation(operation=SceneOperation.ADD, body="probe", frame_id="probe", pair_with=["camera"])
     operation.primitives = [SolidPrimitive(type=SolidPrimitive.BOX, dimensions=[PROBE] * 3)]
     answer = service([operation])
+    while not answer.success and "not loaded yet" in answer.message:
+        time.sleep(0.2)
+        answer = service([operation])
     if not answer.success:
         sys.exit("measure_clouds: " + answer.message)
 
