@@ -61,8 +61,8 @@ bool PointFilter::isOnBody(const Eigen::Vector3d& point) const {
 
 std::shared_ptr<const BodyMesh> makeCloudMesh(const std::string& name, const VoxelGrid& voxels) {
   std::shared_ptr<const BodyMesh> mesh;
-  // A worker that helps here would be missing in the cycle.
-  tbb::task_arena(1).execute(
+  // Two threads at most: workers that help here are missing in the cycle until their task ends.
+  tbb::task_arena(2).execute(
       [&] { mesh = std::make_shared<const BodyMesh>(name, voxels.surface("cloud '" + name + "'")); });
   return mesh;
 }

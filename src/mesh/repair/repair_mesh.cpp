@@ -93,16 +93,16 @@ void dissolveFlat(const std::vector<Eigen::Vector3d>& vertices, std::vector<Tria
 }
 
 void countShells(const std::vector<Eigen::Vector3d>& vertices, const std::vector<TriangleNodes>& triangles,
-                 RepairReport& report) {
-  const detail::ShellLabels labels = detail::labelShells(vertices, triangles);
+                 const detail::EdgeTable& edges, RepairReport& report) {
+  const detail::ShellLabels labels = detail::labelShells(vertices, triangles, edges);
   report.shells = labels.shell_is_closed.size();
   report.closed_shells = static_cast<std::size_t>(
       std::count(labels.shell_is_closed.begin(), labels.shell_is_closed.end(), true));
 }
 
 /// Counts borders, edges of more than two triangles, and edges whose two triangles do not agree.
-void countEdges(const std::vector<TriangleNodes>& triangles, RepairReport& report) {
-  const detail::EdgeTable edges = detail::buildEdgeTable(triangles);
+void countEdges(const std::vector<TriangleNodes>& triangles, const detail::EdgeTable& edges,
+                RepairReport& report) {
   // A hole is a chain of border edges that follow one another around the same fans of triangles. Corners are
   // half-edge starts; the corners of one vertex that are joined by edges are one fan.
   UnionFind fans(3 * triangles.size());
@@ -193,8 +193,9 @@ RepairedMesh repairMesh(const TriangleSoup& soup, const RepairOptions& options, 
   report.turned_triangles = settled.turned;
   report.welded_vertices = soup.vertices.size() - welded.vertices.size() + joined_vertices;
   report.unused_vertices = dropUnused(welded.vertices, triangles) - joined_vertices;
-  countShells(welded.vertices, triangles, report);
-  countEdges(triangles, report);
+  const detail::EdgeTable edges = detail::buildEdgeTable(triangles);
+  countShells(welded.vertices, triangles, edges, report);
+  countEdges(triangles, edges, report);
   return {SurfaceMesh(std::move(welded.vertices), std::move(triangles), where), report};
 }
 

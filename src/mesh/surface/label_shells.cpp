@@ -77,10 +77,11 @@ std::vector<bool> findFlatSets(const std::vector<Eigen::Vector3d>& vertices,
 
 class Labeller {
  public:
-  Labeller(const std::vector<Eigen::Vector3d>& vertices, const std::vector<TriangleNodes>& triangles)
+  Labeller(const std::vector<Eigen::Vector3d>& vertices, const std::vector<TriangleNodes>& triangles,
+           const EdgeTable& edges)
       : vertices_(vertices),
         triangles_(triangles),
-        edges_(buildEdgeTable(triangles)),
+        edges_(edges),
         classes_(classesOf(vertices, triangles, edges_)),
         sets_(triangles.size()),
         is_open_(triangles.size()) {}
@@ -180,7 +181,7 @@ class Labeller {
 
   const std::vector<Eigen::Vector3d>& vertices_;
   const std::vector<TriangleNodes>& triangles_;
-  EdgeTable edges_;
+  const EdgeTable& edges_;
   std::vector<std::uint32_t> classes_;
   UnionFind sets_;
   std::vector<bool> is_open_;
@@ -189,8 +190,8 @@ class Labeller {
 }  // namespace
 
 ShellLabels labelShells(const std::vector<Eigen::Vector3d>& vertices,
-                        const std::vector<TriangleNodes>& triangles) {
-  return Labeller(vertices, triangles).label();
+                        const std::vector<TriangleNodes>& triangles, const EdgeTable& edges) {
+  return Labeller(vertices, triangles, edges).label();
 }
 
 }  // namespace concave_distance::detail

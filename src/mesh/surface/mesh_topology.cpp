@@ -4,54 +4,11 @@
 #include <cmath>
 #include <utility>
 
+#include "edge_table.h"
 #include "resolve_shells.h"
 
 namespace concave_distance {
 namespace {
-
-/// One side of a triangle, keyed by its two ends whatever the direction.
-struct EdgeUse {
-  std::uint32_t low;
-  std::uint32_t high;
-  std::uint32_t triangle;
-  std::uint8_t edge;
-  bool ascending;  ///< runs from low to high
-};
-
-/// A triangle that names a vertex twice has an edge from that vertex to itself; it borders nothing.
-std::vector<EdgeUse> collectEdges(const SurfaceMesh& mesh) {
-  std::vector<EdgeUse> edges;
-  edges.reserve(3 * mesh.triangleCount());
-  for (std::size_t t = 0; t < mesh.triangleCount(); ++t) {
-    const TriangleNodes& nodes = mesh.triangles()[t];
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::uint32_t from = nodes[k].value;
-      const std::uint32_t to = nodes[(k + 1) % 3].value;
-      if (from == to) continue;
-      edges.push_back({std::min(from, to), std::max(from, to), static_cast<std::uint32_t>(t),
-                       static_cast<std::uint8_t>(k), from < to});
-    }
-  }
-  std::sort(edges.begin(), edges.end(), [](const EdgeUse& l, const EdgeUse& r) {
-    if (l.low != r.low) return l.low < r.low;
-    if (l.high != r.high) return l.high < r.high;
-    return l.triangle < r.triangle;
-  });
-  return edges;
-}
-
-template <typename Visit>
-void forEachEdge(const std::vector<EdgeUse>& edges, Visit visit) {
-  for (std::size_t first = 0; first < edges.size();) {
-    std::size_t last = first + 1;
-    while (last < edges.size() && edges[last].low == edges[first].low &&
-           edges[last].high == edges[first].high) {
-      ++last;
-    }
-    visit(first, last);
-    first = last;
-  }
-}
 
 CompressedRows<TriangleIndex> trianglesOfVertices(const SurfaceMesh& mesh) {
   const auto names_before = [](const TriangleNodes& nodes, std::size_t k) {
@@ -67,18 +24,36 @@ CompressedRows<TriangleIndex> trianglesOfVertices(const SurfaceMesh& mesh) {
   });
 }
 
-CompressedRows<NodeIndex> neighboursOfVertices(const std::vector<EdgeUse>& edges, std::size_t vertex_count) {
-  CompressedRows<NodeIndex> rows = compressedRows<NodeIndex>(vertex_count, [&](const auto& visit) {
-    forEachEdge(edges, [&](std::size_t first, std::size_t) {
-      const EdgeUse& edge = edges[first];
-      visit(edge.low, NodeIndex{edge.high});
-      visit(edge.high, NodeIndex{edge.low});
-    });
+/// Ascending, because edges come in the order of their lower, then higher node. A triangle that names a
+/// vertex twice has an edge from that vertex to itself; it leads to no neighbour.
+CompressedRows<NodeIndex> neighboursOfVertices(const SurfaceMesh& mesh, const detail::EdgeTable& edges) {
+  return compressedRows<NodeIndex>(mesh.vertexCount(), [&](const auto& visit) {
+    for (std::size_t e = 0; e < edges.edgeCount(); ++e) {
+      const detail::HalfEdge first = edges.half_edges[edges.first[e]];
+      const NodeIndex from = detail::startOf(mesh.triangles(), first);
+      const NodeIndex to = detail::endOf(mesh.triangles(), first);
+      if (from == to) continue;
+      visit(std::min(from, to).value, std::max(from, to));
+      visit(std::max(from, to).value, std::min(from, to));
+    }
   });
-  for (std::size_t v = 0; v < vertex_count; ++v) {
-    std::sort(rows.values.begin() + rows.offsets[v], rows.values.begin() + rows.offsets[v + 1]);
+}
+
+/// The other triangle of the lowest number along each edge of each triangle.
+std::vector<std::array<TriangleIndex, 3>> trianglesAcrossEdges(const SurfaceMesh& mesh,
+                                                               const detail::EdgeTable& edges) {
+  std::vector<std::array<TriangleIndex, 3>> across(mesh.triangleCount(),
+                                                   {kNoTriangle, kNoTriangle, kNoTriangle});
+  for (detail::HalfEdge h = 0; h < 3 * mesh.triangleCount(); ++h) {
+    if (detail::startOf(mesh.triangles(), h) == detail::endOf(mesh.triangles(), h)) continue;
+    const std::uint32_t edge = edges.edge_of_half_edge[h];
+    for (std::uint32_t i = edges.first[edge]; i < edges.first[edge + 1]; ++i) {
+      if (edges.half_edges[i] / 3 == h / 3) continue;
+      across[h / 3][h % 3] = TriangleIndex{edges.half_edges[i] / 3};
+      break;
+    }
   }
-  return rows;
+  return across;
 }
 
 /// Takes the two shorter edges, whose cross product cancels least.
@@ -128,20 +103,11 @@ bool MeshTopology::allShellsClosed() const {
 
 MeshTopology buildMeshTopology(const SurfaceMesh& mesh) {
   MeshTopology topology;
-  const std::vector<EdgeUse> edges = collectEdges(mesh);
+  const detail::EdgeTable edges = detail::buildEdgeTable(mesh.triangles());
   topology.triangles_of_vertex = trianglesOfVertices(mesh);
-  topology.neighbours_of_vertex = neighboursOfVertices(edges, mesh.vertexCount());
-  topology.triangle_across_edge.assign(mesh.triangleCount(), {kNoTriangle, kNoTriangle, kNoTriangle});
-  forEachEdge(edges, [&](std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i) {
-      for (std::size_t j = first; j < last; ++j) {
-        if (edges[j].triangle == edges[i].triangle) continue;
-        topology.triangle_across_edge[edges[i].triangle][edges[i].edge] = TriangleIndex{edges[j].triangle};
-        break;
-      }
-    }
-  });
-  detail::ShellLabels shells = detail::labelShells(mesh.vertices(), mesh.triangles());
+  topology.neighbours_of_vertex = neighboursOfVertices(mesh, edges);
+  topology.triangle_across_edge = trianglesAcrossEdges(mesh, edges);
+  detail::ShellLabels shells = detail::labelShells(mesh.vertices(), mesh.triangles(), edges);
   topology.shell_of_triangle = std::move(shells.shell_of_triangle);
   topology.triangle_of_shell = std::move(shells.triangle_of_shell);
   topology.shell_is_closed = std::move(shells.shell_is_closed);

@@ -28,7 +28,8 @@ struct ShellLabels {
   std::vector<bool> shell_is_closed;
 };
 
+/// @param edges those of the triangles
 ShellLabels labelShells(const std::vector<Eigen::Vector3d>& vertices,
-                        const std::vector<TriangleNodes>& triangles);
+                        const std::vector<TriangleNodes>& triangles, const EdgeTable& edges);
 
 }  // namespace concave_distance::detail

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/union_find.h"
+#include "compressed_rows.h"
 
 namespace concave_distance::detail {
 namespace {
@@ -64,10 +65,9 @@ class Splitter {
     }
     patch_.assign(units_.unit_of_face.size(), 0);
     for (const std::uint32_t face : left_) patch_[face] = patches.find(face);
-    by_patch_ = left_;
-    std::sort(by_patch_.begin(), by_patch_.end(), [&](std::uint32_t l, std::uint32_t r) {
-      return patch_[l] != patch_[r] ? patch_[l] < patch_[r] : l < r;
-    });
+    by_patch_ = compressedRows<std::uint32_t>(patch_.size(), [&](const auto& visit) {
+                  for (const std::uint32_t face : left_) visit(patch_[face], face);
+                }).values;
   }
 
   void peelSheets() {
@@ -140,7 +140,7 @@ class Splitter {
 
   const EdgeTable& edges_;
   SurfaceUnits units_;
-  std::vector<std::uint32_t> left_;  ///< undecided faces
+  std::vector<std::uint32_t> left_;  ///< undecided faces, ascending
   std::vector<std::uint32_t> uses_;  ///< per edge, by undecided faces
   std::vector<std::uint32_t> patch_;
   std::vector<std::uint32_t> by_patch_;

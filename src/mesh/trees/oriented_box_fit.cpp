@@ -91,10 +91,22 @@ Matrix3d planeOfLargest(const CornerRange& corners) {
   return axes.allFinite() ? axes : Matrix3d::Identity();
 }
 
+/// Whether a box has no thickness and as much area as its triangles: unless they overlap, no box around them
+/// has less surface.
+bool isFilled(const OrientedBox& box, const CornerRange& corners) {
+  if (box.half.minCoeff() > 0.0) return false;
+  constexpr double kRounding = 0x1.0p-40;
+  double area = 0.0;
+  for (const Vector3d* t = corners.begin; t != corners.end; t += 3)
+    area += 0.5 * (t[1] - t[0]).cross(t[2] - t[0]).norm();
+  return area >= (1.0 - kRounding) * 4.0 * halfArea(box.half);
+}
+
 }  // namespace
 
 OrientedBox fitOrientedBox(const CornerRange& corners) {
   OrientedBox best = boxAlong(Matrix3d::Identity(), corners);
+  if (isFilled(best, corners)) return best;
   for (const Matrix3d& axes : {principalAxes(corners), planeOfLargest(corners)}) {
     OrientedBox box = boxAlong(axes, corners);
     if (halfArea(box.half) < halfArea(best.half)) best = box;
