@@ -146,18 +146,22 @@ bool NichePreparation::isBegunAhead(const std::shared_ptr<const BodyMesh>& mesh)
 
 void NichePreparation::work() {
   giveWay();
-  const auto first = [this] {
-    return std::find_if(waiting_.begin(), waiting_.end(), [](const auto& list) { return !list.empty(); });
-  };
   std::unique_lock<std::mutex> lock(mutex_);
   for (;;) {
     added_.wait(lock, [&] { return is_ending_ || first() != waiting_.end(); });
     if (is_ending_) return;
     const auto list = first();
     const bool is_search = list == waiting_.end() - 1;
+    if (!list->front().is_ahead && list->front().task.use_count() == 1) {  // the pair is gone
+      list->pop_front();
+      continue;
+    }
+    if (is_search && Clock::now() < list->front().search_due) {
+      added_.wait_until(lock, list->front().search_due);
+      continue;
+    }
     Entry entry = std::move(list->front());
     list->pop_front();
-    if (!entry.is_ahead && entry.task.use_count() == 1) continue;  // the pair is gone
     lock.unlock();
     if (is_search) {
       entry.task->makeSearch();
@@ -167,6 +171,10 @@ void NichePreparation::work() {
     lock.lock();
     if (!is_search && !entry.is_ahead) waiting_.back().push_back(std::move(entry));
   }
+}
+
+NichePreparation::Lists::iterator NichePreparation::first() {
+  return std::find_if(waiting_.begin(), waiting_.end(), [](const auto& list) { return !list.empty(); });
 }
 
 }  // namespace concave_distance

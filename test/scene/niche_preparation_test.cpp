@@ -115,6 +115,19 @@ TEST(NichePreparation, ListsAreCompleteBeforeTheSearchIsMadeWhichJoinsLater) {
   EXPECT_EQ(pair.solution.niches.size(), niches);
 }
 
+// The surface of a cloud is replaced some times a second, sooner than a grid pays for itself.
+TEST(NichePreparation, TheSearchIsMadeOfWhatHasLastedForASecond) {
+  const auto begin = std::chrono::steady_clock::now();
+  SceneTracker tracker({1, nullptr, true});
+  tracker.setScene(twoBumpyBalls());
+  const TrackedPair& pair = *tracker.pairs()[0];
+  ASSERT_TRUE(pair.preparation);
+  for (int k = 0; !pair.preparation->isSearchDone() && k < 60'000; ++k)
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  EXPECT_TRUE(pair.preparation->isSearchDone());
+  EXPECT_GE(std::chrono::steady_clock::now() - begin, std::chrono::seconds(1));
+}
+
 TEST(NichePreparation, ItKeepsNoMeshThatIsGoneAndMakesNothingForAPairThatIs) {
   SceneTracker tracker({1, nullptr, true});
   std::vector<std::weak_ptr<const BodyMesh>> meshes;
