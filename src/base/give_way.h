@@ -2,8 +2,8 @@
 
 namespace concave_distance {
 
-/// Lowers the priority of the calling thread below that of cycles, by steps of `nice`; without the right to
-/// it nothing changes.
+/// Lowers the priority of the calling thread below that of cycles: out of real-time priority, which threads
+/// inherit, and by steps of `nice`.
 void giveWay();
 
 }  // namespace concave_distance
