@@ -24,7 +24,7 @@ SERVICES = {"add_body": AddBody, "apply_scene": ApplyScene, "get_clearance": Get
             "get_distances": GetDistances, "get_scene": GetScene, "list_bodies": ListBodies, "reload": Reload,
             "remove_body": RemoveBody, "reset_tracking": ResetTracking, "save_scene": SaveScene, "set_effects": SetEffects,
             "set_pair_enabled": SetPairEnabled, "set_warning_distance": SetWarningDistance}
-BODIES = ["edit_%d" % number for number in range(6)]
+BODIES = ["edit_%d" % number for number in range(4)]
 OBJECTS = ["table", "ball", "crate", "cup"]
 LINKS = ["wam%d" % number for number in range(1, 8)]
 JOINTS = ["j%d" % number for number in range(1, 8)]
@@ -195,7 +195,7 @@ class Edits:
         if self.engine.random() < 0.5:
             self.call("set_pair_enabled", body_a=pair, body_b="walker_*", enabled=self.engine.random() < 0.7)
         else:
-            self.call("set_warning_distance", pair="wam7/shelf_board_3", warning_distance=self.engine.uniform(0.0, 0.2),
+            self.call("set_warning_distance", pair="wam7/shelf_board_3", warning_distance=self.engine.uniform(0.0, 0.15),
                       warning_hysteresis=0.01)
 
     def clear(self):
@@ -237,6 +237,7 @@ class Edits:
             ("set_pair_enabled", dict(pair="no/pair", enabled=True)),
             ("set_effects", dict(pair="wam7/shelf_board_3", effects="{normal_force: steam}")),
             ("set_warning_distance", dict(pair="wam7/shelf_board_3", warning_distance=math.nan)),
+            ("set_warning_distance", dict(pair="wam7/shelf_board_3", warning_distance=0.5)),  # beyond the cutoff
             ("save_scene", dict(path="somewhere.yaml")),
         ])
         self.call(service, is_good=False, **fields)
