@@ -166,7 +166,9 @@ class Comparer:
             files = self.resting_scene()
             node = FreshNode(self.program, self.folder, files)
             found.failed = node.wait_until_ready()
-            if not found.failed:
+            if found.failed:
+                found.different = 1  # a scene that get_scene gives loads
+            else:
                 self._compare(node, files, found)
         except rospy.ServiceException as problem:
             found.failed = str(problem)
