@@ -1,5 +1,7 @@
 #include "niche_preparation.h"
 
+#include <tbb/task_arena.h>
+
 #include <algorithm>
 #include <iterator>
 #include <new>
@@ -144,8 +146,10 @@ bool NichePreparation::isBegunAhead(const std::shared_ptr<const BodyMesh>& mesh)
   return false;
 }
 
+// No worker helps: one that this thread had begun would have its low priority in the cycles too.
 void NichePreparation::work() {
   giveWay();
+  tbb::task_arena alone(1);
   std::unique_lock<std::mutex> lock(mutex_);
   for (;;) {
     added_.wait(lock, [&] { return is_ending_ || first() != waiting_.end(); });
@@ -163,11 +167,13 @@ void NichePreparation::work() {
     Entry entry = std::move(list->front());
     list->pop_front();
     lock.unlock();
-    if (is_search) {
-      entry.task->makeSearch();
-    } else {
-      entry.task->makeNiches();
-    }
+    alone.execute([&] {
+      if (is_search) {
+        entry.task->makeSearch();
+      } else {
+        entry.task->makeNiches();
+      }
+    });
     lock.lock();
     if (!is_search && !entry.is_ahead) waiting_.back().push_back(std::move(entry));
   }

@@ -2,9 +2,14 @@
 #include "scene/niche_preparation.h"
 
 #include <gtest/gtest.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <iterator>
+#include <optional>
 #include <thread>
 
 #include "concave_distance/scene/scene_tracker.h"
@@ -126,6 +131,25 @@ TEST(NichePreparation, TheSearchIsMadeOfWhatHasLastedForASecond) {
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   EXPECT_TRUE(pair.preparation->isSearchDone());
   EXPECT_GE(std::chrono::steady_clock::now() - begin, std::chrono::seconds(1));
+}
+
+// The process ends with the number of its threads after a preparation in the background.
+[[noreturn]] void prepareAndExit() {
+  tbb::task_arena alone(1);
+  std::optional<Scene> scene;
+  alone.execute([&] { scene = twoBumpyBalls(); });
+  SceneTracker tracker({1, nullptr, true});
+  alone.execute([&] { tracker.setScene(*scene); });
+  while (!tracker.pairs()[0]->preparation->isSearchDone())
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  const std::filesystem::directory_iterator threads("/proc/self/task");
+  std::_Exit(static_cast<int>(std::distance(begin(threads), end(threads))));
+}
+
+// Workers have the priority of the thread that begins them: one of the background's would hold up cycles.
+TEST(NichePreparation, ItBeginsNoWorker) {
+  ::testing::FLAGS_gtest_death_test_style = "threadsafe";
+  EXPECT_EXIT(prepareAndExit(), ::testing::ExitedWithCode(2), "");
 }
 
 TEST(NichePreparation, ItKeepsNoMeshThatIsGoneAndMakesNothingForAPairThatIs) {
