@@ -32,6 +32,12 @@ endif()
 if(NOT CONCAVE_DISTANCE_IN_WORKSPACE)
   file(MAKE_DIRECTORY "${CMAKE_BINARY_DIR}/devel/lib/python3/dist-packages")
 endif()
+# catkin's setup files are installed to the prefix that was configured, whatever `cmake --install --prefix` says: they
+# are left out where nobody has named one.
+if(NOT CONCAVE_DISTANCE_IN_WORKSPACE AND NOT DEFINED CATKIN_INSTALL_INTO_PREFIX_ROOT
+    AND CMAKE_INSTALL_PREFIX STREQUAL "/usr/local")
+  set(CATKIN_INSTALL_INTO_PREFIX_ROOT OFF)
+endif()
 find_package(catkin QUIET)
 if(catkin_FOUND)
   find_package(catkin QUIET COMPONENTS ${CONCAVE_DISTANCE_ROS_PACKAGES})

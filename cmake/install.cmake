@@ -33,7 +33,7 @@ if(NOT CONCAVE_DISTANCE_WITH_ROS)
   configure_file(cmake/concave_distance-extras.cmake.in
     ${concave_distance_config_directory}/concave_distanceConfig.cmake @ONLY)
   write_basic_package_version_file(${concave_distance_config_directory}/concave_distanceConfigVersion.cmake
-    COMPATIBILITY SameMinorVersion)
+    COMPATIBILITY SameMajorVersion)
   install(FILES
     ${concave_distance_config_directory}/concave_distanceConfig.cmake
     ${concave_distance_config_directory}/concave_distanceConfigVersion.cmake

@@ -15,6 +15,7 @@ them, with the cloud and without; load of the machine.
 
 import argparse
 import csv
+import itertools
 import math
 import os
 import sys
@@ -36,6 +37,7 @@ STEPS = 12          # places of the nearest voxel
 PER_VOXEL = 5       # points
 RATE = 5.0          # Hz
 SIZES = (1000, 10000, 50000)
+STEP = itertools.count()
 
 
 def nearest_voxel(step):
@@ -138,9 +140,9 @@ def measure(kind, count, messages, publisher, listener, engine):
     cells = voxels_of(kind, count - 1, engine)
     listener.take_cycles()
     times, errors, to_points = [], [], []
-    for step in range(messages):
+    for _ in range(messages):
         begin = time.monotonic()
-        middle, gap = nearest_voxel(step)
+        middle, gap = nearest_voxel(next(STEP))
         inside = engine.uniform(-0.45, 0.45, (PER_VOXEL * len(cells), 3))
         points = VOXEL * (numpy.repeat(cells, PER_VOXEL, axis=0) + 0.5 + inside)
         own = middle + VOXEL * engine.uniform(-0.45, 0.45, (PER_VOXEL, 3))

@@ -1,8 +1,9 @@
 #include "csv_writer.h"
 
 #include <array>
-#include <charconv>
 #include <cmath>
+
+#include "number_characters.h"
 
 namespace concave_distance {
 
@@ -11,8 +12,7 @@ CsvWriter& CsvWriter::operator<<(double value) {
   if (std::isnan(value)) return *this;
   constexpr int kDigits = 17;
   std::array<char, 32> text{};
-  const auto end =
-      std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::general, kDigits).ptr;
+  const char* end = writeGeneral(text.data(), text.data() + text.size(), value, kDigits);
   stream_->write(text.data(), end - text.data());
   return *this;
 }

@@ -6,13 +6,16 @@
 #include <locale>
 #include <system_error>
 
+#include "number_characters.h"
+
 namespace concave_distance {
 namespace {
 
-std::string written(double value, std::chars_format format, int precision) {
+template <typename Write>
+std::string written(double value, int precision, Write write) {
   // 309 digits before the point, a sign, a point and what stands after it.
   std::string text(320U + static_cast<std::size_t>(precision), '\0');
-  const auto end = std::to_chars(text.data(), text.data() + text.size(), value, format, precision).ptr;
+  const char* end = write(text.data(), text.data() + text.size(), value, precision);
   text.resize(static_cast<std::size_t>(end - text.data()));
   return text;
 }
@@ -42,20 +45,20 @@ TextStream::TextStream() {
 }
 
 std::string numberText(double value, int digits) {
-  return written(value, std::chars_format::general, digits);
+  return written(value, digits, writeGeneral);
 }
 
 std::string fixedText(double value, int decimals) {
-  return written(value, std::chars_format::fixed, decimals);
+  return written(value, decimals, writeFixed);
 }
 
 std::optional<double> parseNumber(std::string_view text) {
-  // from_chars reads no plus sign.
+  // readCharacters reads no plus sign.
   const bool has_plus = text.size() > 1 && text[0] == '+' && text[1] != '-' && text[1] != '+';
   if (has_plus) text.remove_prefix(1);
   const char* last = text.data() + text.size();
   double value = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), last, value);
+  const auto [end, error] = readCharacters(text.data(), last, value);
   if (end != last) return std::nullopt;
   if (error == std::errc::result_out_of_range && isBelowOne(text)) return 0.0;
   return error == std::errc() ? std::optional(value) : std::nullopt;

@@ -1,9 +1,11 @@
+#include "base/version.h"
 #include "bindings.h"
 
 PYBIND11_MODULE(_concave_distance, module) {
   namespace py = pybind11;
   using namespace concave_distance::python;
   module.doc() = "What the package concave_distance gives its users; import that.";
+  module.attr("__version__") = concave_distance::packageVersion();
   bindError(module);
   bindEnums(module);
   bindAnswers(module);

@@ -121,7 +121,7 @@ class Merge {
 
   std::uint32_t settingsFor(const PairRule* loaded, const PairRule* edited, const PairRule* fresh,
                             PairRules& rules) {
-    constexpr std::uint32_t kNone = 0xffffffffU;
+    static constexpr std::uint32_t kNone = 0xffffffffU;  // GCC 9 takes one without `static` for captured
     const auto of = [](const PairRule* rule) { return rule == nullptr ? kNone : rule->settings; };
     const bool is_all = loaded != nullptr && edited != nullptr && fresh != nullptr;
     const auto key = is_all              ? std::tuple(of(loaded), of(edited), of(fresh))

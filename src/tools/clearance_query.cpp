@@ -15,6 +15,7 @@
 #include "base/number_text.h"
 #include "base/output_file.h"
 #include "base/run_tool.h"
+#include "base/version.h"
 #include "concave_distance/base/error.h"
 #include "concave_distance/kinematics/clearance.h"
 #include "concave_distance/loading/load_scene.h"
@@ -291,6 +292,7 @@ int run(int argc, char** argv) {
   app.footer(
       "An empty cell was not computed. Status: ok, penetrating, budget_exhausted, no_pairs.\n"
       "Exit status: 0 done, 1 a file is at fault, 2 the command line is.");
+  app.set_version_flag("--version", packageVersion());
   addOptions(app, options);
   try {
     app.parse(argc, argv);

@@ -10,6 +10,7 @@
 #include "base/helper_threads.h"
 #include "base/output_file.h"
 #include "base/run_tool.h"
+#include "base/version.h"
 #include "concave_distance/loading/load_body_mesh.h"
 #include "concave_distance/mesh/body_mesh.h"
 #include "concave_distance/mesh/preparation_cache.h"
@@ -233,6 +234,7 @@ int run(int argc, char** argv) {
   app.footer(
       "An empty cell was not computed. Status: ok, tolerance, budget, memory, penetrating, invalid_pose.\n"
       "Exit status: 0 done, 1 a file is at fault, 2 the command line is.");
+  app.set_version_flag("--version", packageVersion());
   addOptions(app, options);
   try {
     app.parse(argc, argv);

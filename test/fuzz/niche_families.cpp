@@ -312,6 +312,20 @@ NicheScene drawOverlap(RandomEngine& engine) {
   return scene;
 }
 
+/// The surfaces of clouds come so from the node: not repaired.
+NicheScene drawVoxels(RandomEngine& engine) {
+  for (;;) {
+    const SurfaceMesh a = voxelUnion(engine);
+    const bool two = uniformIndex(engine, 2) == 0;
+    const SurfaceMesh b = two ? voxelUnion(engine) : imported(plainShape(engine));
+    if (a.triangleCount() * b.triangleCount() > kMostPairs) continue;
+    if (uniformIndex(engine, 2) == 0) return onALattice(engine, a, b, 0.125, 10, 1e-12);
+    NicheScene scene = besideEachOther(engine, a, b);
+    walk(engine, 0.25, true, scene);
+    return scene;
+  }
+}
+
 /// Draws until the enumeration can afford it and repair leaves something; the surfaces are as from a file.
 template <NicheScene (*draw)(RandomEngine&)>
 NicheScene affordable(RandomEngine& engine) {
@@ -348,7 +362,8 @@ const std::vector<NicheFamily>& nicheFamilies() {
       {"dents", "a face above a block whose halves tie beside a groove or pit", affordable<drawDents>},
       {"rings", "rings with lobes: many niches", affordable<drawRings>},
       {"overlap", "rods through plates, combs, rings, hollow bodies, sheets, unions",
-       affordable<drawOverlap>}};
+       affordable<drawOverlap>},
+      {"voxels", "cells that share faces, edges or corners, in line and turned", drawVoxels}};
   return families;
 }
 

@@ -1,5 +1,7 @@
 #include "fuzz/niche_shapes.h"
 
+#include "concave_distance/mesh/surface/voxels.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -294,6 +296,17 @@ SurfaceMesh unionOfConvexSolids(RandomEngine& engine) {
     all = makeJoined(all, solid(), offset);
   }
   return all;
+}
+
+SurfaceMesh voxelUnion(RandomEngine& engine) {
+  VoxelGrid grid(0.25);
+  const std::uint32_t count = 1 + uniformIndex(engine, 5);
+  while (grid.cells().size() < count) {
+    VoxelCell cell;
+    for (std::int32_t& index : cell) index = static_cast<std::int32_t>(uniformIndex(engine, 3)) - 1;
+    grid.insert(cell);
+  }
+  return grid.surface("drawn");
 }
 
 }  // namespace concave_distance::test

@@ -33,5 +33,7 @@ SurfaceMesh nearlyConvexShape(RandomEngine& engine);
 SurfaceMesh severalShells(RandomEngine& engine);
 /// Two to four boxes or convex polyhedra that cross each other: on a lattice, a little beside it, or anyhow.
 SurfaceMesh unionOfConvexSolids(RandomEngine& engine);
+/// Cells of a small grid, many of which touch at an edge or a corner only; not repaired.
+SurfaceMesh voxelUnion(RandomEngine& engine);
 
 }  // namespace concave_distance::test

@@ -31,6 +31,10 @@ class Package(unittest.TestCase):
         printed = subprocess.run([sys.executable, "-c", code], check=True, stdout=subprocess.PIPE).stdout.decode()
         self.assertEqual(printed.split(), ["[]", "True", "False"])
 
+    def test_the_version_is_that_of_the_extension_module(self):
+        self.assertRegex(cd.__version__, r"^[0-9]+\.[0-9]+\.[0-9]+$")
+        self.assertEqual(cd.__version__, importlib.import_module("concave_distance._concave_distance").__version__)
+
     def test_every_name_has_hints_and_documentation(self):
         extension = importlib.import_module("concave_distance._concave_distance")
         public = {name for name in dir(extension) if not name.startswith("_")}

@@ -9,7 +9,7 @@
 namespace concave_distance {
 namespace {
 
-constexpr std::size_t kBinCount = 16;
+constexpr std::size_t kMostBins = 16;
 constexpr std::uint32_t kLargestLeaf = 4;
 /// Below this depth nodes are halved by count, so that the depth stays under kSurfaceAreaDepth + 32.
 constexpr std::uint32_t kSurfaceAreaDepth = 48;
@@ -29,27 +29,29 @@ using Nodes = std::vector<TriangleTree::Node>;
 
 class TriangleTreeBuilder {
  public:
-  TriangleTreeBuilder(const SurfaceMesh& mesh, std::vector<TriangleIndex>& order)
-      : order_(order), boxes_(mesh.triangleCount()), centres_(mesh.triangleCount()) {
-    order_.reserve(mesh.triangleCount());
+  explicit TriangleTreeBuilder(const SurfaceMesh& mesh) : items_(mesh.triangleCount()) {
     for (std::size_t t = 0; t < mesh.triangleCount(); ++t) {
-      for (int k = 0; k < 3; ++k) {
-        boxes_[t].extend(mesh.corner(TriangleIndex{t}, k));
-      }
-      centres_[t] = 0.5 * (boxes_[t].min() + boxes_[t].max());
-      order_.push_back(TriangleIndex{t});
+      items_[t].triangle = TriangleIndex{t};
+      for (int k = 0; k < 3; ++k) items_[t].box.extend(mesh.corner(TriangleIndex{t}, k));
     }
   }
 
+  std::vector<TriangleIndex> order() const {
+    std::vector<TriangleIndex> order;
+    order.reserve(items_.size());
+    for (const Item& item : items_) order.push_back(item.triangle);
+    return order;
+  }
+
   // Depth first, so that the first child is next to its parent; the recursion is at most 80 deep. What is
-  // built does not depend on the number of threads: tasks share nothing but disjoint ranges of the order.
+  // built does not depend on the number of threads: tasks share nothing but disjoint ranges of the items.
   void build(std::uint32_t first, std::uint32_t last, std::uint32_t depth, Nodes& nodes) {
     const std::size_t self = nodes.size();
     nodes.emplace_back();
     Eigen::AlignedBox3d centre_box;
     for (std::uint32_t i = first; i < last; ++i) {
-      nodes[self].box.extend(boxes_[order_[i].value]);
-      centre_box.extend(centres_[order_[i].value]);
+      nodes[self].box.extend(items_[i].box);
+      centre_box.extend(items_[i].centre());
     }
     const std::uint32_t count = last - first;
     std::uint32_t middle = first;
@@ -76,6 +78,18 @@ class TriangleTreeBuilder {
   }
 
  private:
+  // The boxes are sorted themselves: passes over a node then read memory in its order.
+  struct Item {
+    Eigen::AlignedBox3d box;
+    TriangleIndex triangle;
+    Eigen::Vector3d centre() const { return 0.5 * (box.min() + box.max()); }
+  };
+  struct Bin {
+    Eigen::AlignedBox3d box;
+    std::uint32_t count = 0;
+  };
+  using Bins = std::array<std::array<Bin, kMostBins>, 3>;  // by axis
+
   static void append(const Nodes& subtree, Nodes& nodes) {
     const auto base = static_cast<std::uint32_t>(nodes.size());
     nodes.insert(nodes.end(), subtree.begin(), subtree.end());
@@ -91,66 +105,72 @@ class TriangleTreeBuilder {
     // Costs relative to one triangle test; opening a node costs about as much.
     double best_cost = count <= kLargestLeaf ? count : std::numeric_limits<double>::infinity();
     const double area = std::max(halfArea(box), std::numeric_limits<double>::min());
+    const std::size_t bin_count = std::min<std::size_t>(kMostBins, 2 * count);
+    const Eigen::Vector3d to_bin = static_cast<double>(bin_count) / centre_box.sizes().array();
+    const Bins bins = binsOf(first, last, centre_box, to_bin, bin_count);
     Split best;
     for (int axis = 0; axis < 3; ++axis) {
-      const double low = centre_box.min()[axis];
-      const double width = centre_box.max()[axis] - low;
-      if (!(width > 0.0)) continue;
-      std::array<Eigen::AlignedBox3d, kBinCount> bin_boxes;
-      std::array<std::uint32_t, kBinCount> bin_counts{};
-      const double to_bin = static_cast<double>(kBinCount) / width;
-      for (std::uint32_t i = first; i < last; ++i) {
-        const std::uint32_t t = order_[i].value;
-        const auto bin =
-            std::min(kBinCount - 1, static_cast<std::size_t>((centres_[t][axis] - low) * to_bin));
-        bin_boxes[bin].extend(boxes_[t]);
-        ++bin_counts[bin];
+      if (!(centre_box.sizes()[axis] > 0.0)) continue;
+      const std::array<Bin, kMostBins>& along = bins[static_cast<std::size_t>(axis)];
+      std::array<double, kMostBins> cost_above{};
+      Bin above;
+      for (std::size_t bin = bin_count - 1; bin > 0; --bin) {
+        above.box.extend(along[bin].box);
+        above.count += along[bin].count;
+        cost_above[bin] = halfArea(above.box) * above.count;
       }
-      std::array<double, kBinCount> cost_above{};
-      Eigen::AlignedBox3d above;
-      std::uint32_t count_above = 0;
-      for (std::size_t bin = kBinCount - 1; bin > 0; --bin) {
-        above.extend(bin_boxes[bin]);
-        count_above += bin_counts[bin];
-        cost_above[bin] = halfArea(above) * count_above;
-      }
-      Eigen::AlignedBox3d below;
-      std::uint32_t count_below = 0;
-      for (std::size_t bin = 1; bin < kBinCount; ++bin) {
-        below.extend(bin_boxes[bin - 1]);
-        count_below += bin_counts[bin - 1];
-        if (count_below == 0 || count_below == count) continue;
-        const double cost = 1.0 + (halfArea(below) * count_below + cost_above[bin]) / area;
+      Bin below;
+      for (std::size_t bin = 1; bin < bin_count; ++bin) {
+        below.box.extend(along[bin - 1].box);
+        below.count += along[bin - 1].count;
+        if (below.count == 0 || below.count == count) continue;
+        const double cost = 1.0 + (halfArea(below.box) * below.count + cost_above[bin]) / area;
         if (cost < best_cost) {
           best_cost = cost;
-          best = {axis, low + static_cast<double>(bin) / to_bin};
+          best = {axis, centre_box.min()[axis] + static_cast<double>(bin) / to_bin[axis]};
         }
       }
     }
     if (best.axis < 0) return first;
-    const auto middle = std::partition(order_.begin() + first, order_.begin() + last, [&](TriangleIndex t) {
-      return centres_[t.value][best.axis] < best.position;
+    const auto middle = std::partition(items_.begin() + first, items_.begin() + last, [&](const Item& item) {
+      return item.centre()[best.axis] < best.position;
     });
-    const auto split = static_cast<std::uint32_t>(middle - order_.begin());
+    const auto split = static_cast<std::uint32_t>(middle - items_.begin());
     return split == last ? first : split;
+  }
+
+  Bins binsOf(std::uint32_t first, std::uint32_t last, const Eigen::AlignedBox3d& centre_box,
+              const Eigen::Vector3d& to_bin, std::size_t bin_count) const {
+    Bins bins;
+    for (std::uint32_t i = first; i < last; ++i) {
+      const Eigen::Vector3d centre = items_[i].centre();
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const auto k = static_cast<Eigen::Index>(axis);
+        const double low = centre_box.min()[k];
+        if (!(centre_box.max()[k] - low > 0.0)) continue;
+        Bin& bin =
+            bins[axis][std::min(bin_count - 1, static_cast<std::size_t>((centre[k] - low) * to_bin[k]))];
+        bin.box.extend(items_[i].box);
+        ++bin.count;
+      }
+    }
+    return bins;
   }
 
   std::uint32_t splitByCount(std::uint32_t first, std::uint32_t last, const Eigen::AlignedBox3d& centre_box) {
     Eigen::Index axis = 0;
     centre_box.sizes().maxCoeff(&axis);
     const std::uint32_t middle = first + (last - first) / 2;
-    std::nth_element(order_.begin() + first, order_.begin() + middle, order_.begin() + last,
-                     [&](TriangleIndex l, TriangleIndex r) {
-                       const double cl = centres_[l.value][axis];
-                       const double cr = centres_[r.value][axis];
-                       return cl != cr ? cl < cr : l < r;
+    std::nth_element(items_.begin() + first, items_.begin() + middle, items_.begin() + last,
+                     [&](const Item& l, const Item& r) {
+                       const double cl = l.centre()[axis];
+                       const double cr = r.centre()[axis];
+                       return cl != cr ? cl < cr : l.triangle < r.triangle;
                      });
     return middle;
   }
 
-  std::vector<TriangleIndex>& order_;
-  std::vector<Eigen::AlignedBox3d> boxes_;
-  std::vector<Eigen::Vector3d> centres_;
+  std::vector<Item> items_;
 };
 
 }  // namespace
@@ -158,7 +178,9 @@ class TriangleTreeBuilder {
 TriangleTree::TriangleTree(const SurfaceMesh& mesh) {
   if (mesh.triangleCount() == 0) return;
   nodes_.reserve(mesh.triangleCount());
-  TriangleTreeBuilder(mesh, order_).build(0, static_cast<std::uint32_t>(mesh.triangleCount()), 0, nodes_);
+  TriangleTreeBuilder builder(mesh);
+  builder.build(0, static_cast<std::uint32_t>(mesh.triangleCount()), 0, nodes_);
+  order_ = builder.order();
   nodes_.shrink_to_fit();
 }
 

@@ -42,11 +42,12 @@ __all__ = [
 
 def __getattr__(name):
     # The library is loaded at its first use: nodes that import messages alone do without it.
-    if name not in __all__:
+    names = __all__ + ["__version__"]
+    if name not in names:
         raise AttributeError("module '{}' has no attribute '{}'".format(__name__, name))
     from concave_distance import _concave_distance
 
-    globals().update((known, getattr(_concave_distance, known)) for known in __all__)
+    globals().update((known, getattr(_concave_distance, known)) for known in names)
     return globals()[name]
 
 

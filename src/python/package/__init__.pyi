@@ -4,6 +4,8 @@ from typing import Any, Callable, Dict, List, Mapping, Optional, Sequence, Suppo
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+__version__: str
+
 _Limit = Union[float, str, None]
 
 class Error(RuntimeError):

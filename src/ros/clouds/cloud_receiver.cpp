@@ -3,11 +3,13 @@
 #include <ros/console.h>
 
 #include <algorithm>
+#include <cmath>
 #include <exception>
 #include <new>
 #include <utility>
 
 #include "base/give_way.h"
+#include "base/number_text.h"
 #include "base/short_text.h"
 #include "concave_distance/base/error.h"
 #include "kinematics/wording.h"
@@ -30,6 +32,19 @@ Eigen::Isometry3d requirePose(const TransformBuffer& transforms, const std::stri
   const FrameTransform found = lookUpFrame(*transforms.current(), target, source, stamp);
   if (found.status == TransformStatus::Ok) return found.target_from_source;
   throw Error("tf", found.message, "publish the sensor's frame at the stamps of its clouds");
+}
+
+void addRemark(std::string& remarks, const std::string& remark) {
+  if (!remarks.empty()) remarks += "; ";
+  remarks += remark;
+}
+
+std::string tooLate(double seconds, const CloudSettings& settings) {
+  TextStream text;
+  text << "its body was made " << std::round(1e3 * seconds) / 1e3 << " s after the message, stale_after is "
+       << settings.stale_after
+       << " s: its pairs have no distance (use larger voxels, a shorter range or a longer stale_after)";
+  return text.str();
 }
 
 }  // namespace
@@ -114,6 +129,9 @@ void CloudReceiver::use(const Arrival& arrival) {
     report.left_out = made.left_out;
     report.voxels = made.voxels.cells().size();
     serve(scene->bodies[*place], std::move(made), stamp);
+    report.seconds = std::chrono::duration<double>(Clock::now() - arrival.time).count();
+    if (report.seconds >= settings_->stale_after)
+      addRemark(report.remark, tooLate(report.seconds, *settings_));
     const std::lock_guard<std::mutex> lock(mutex_);
     if (!report.remark.empty() && throttle_.isDue(report.remark))
       ROS_WARN_STREAM("cloud '" << name_ << "': " << report.remark);
@@ -122,7 +140,7 @@ void CloudReceiver::use(const Arrival& arrival) {
     report_.points = report.points;
     report_.left_out = report.left_out;
     report_.voxels = report.voxels;
-    report_.seconds = std::chrono::duration<double>(Clock::now() - arrival.time).count();
+    report_.seconds = report.seconds;
     return;
   } catch (const Gone&) {
     return;
@@ -189,8 +207,7 @@ CloudReceiver::Made CloudReceiver::makeVoxels(const CloudReading& reading, const
                   detail::listed(lost, kMostNamed);
   }
   if (!unknown.empty()) {
-    made.remark += (made.remark.empty() ? "" : "; ") + std::string("leave_out names no body of the scene: ") +
-                   detail::listed(unknown, kMostNamed);
+    addRemark(made.remark, "leave_out names no body of the scene: " + detail::listed(unknown, kMostNamed));
   }
   return made;
 }

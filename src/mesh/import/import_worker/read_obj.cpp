@@ -77,7 +77,7 @@ class ObjReader {
 
   void readVertex() {
     Eigen::Vector3d place;
-    for (double& coordinate : place) coordinate = number(nextWord());
+    for (Eigen::Index axis = 0; axis < 3; ++axis) place[axis] = number(nextWord());
     const std::string_view fourth = nextWord();
     // More than four numbers: a colour follows.
     if (!fourth.empty() && nextWord().empty()) {
