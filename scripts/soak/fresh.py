@@ -1,7 +1,7 @@
 """A fresh node that loads the scene as it is now and says what a node that has run for hours should say.
 
-The edits rest meanwhile, and the camera for a second, so that it is known which of its messages the cloud is of. Of a
-message of `distances` every pair is asked again, at the stamp that it has there, of a node that was started a moment
+The edits rest meanwhile, and the camera for a second, so that it is known which of its messages the cloud is of. Of some
+messages of `distances` every pair is asked again, at the stamp that it has there, of a node that was started a moment
 ago, has the same transforms and gets that message of the camera.
 """
 
@@ -27,6 +27,7 @@ LONGEST_START = 60.0    # s
 LONGEST_WAIT = 10.0     # s for a scene that rests, and for a cloud
 REST = 1.0              # s without a change of the scene
 HISTORY = 1.5           # s of transforms that the fresh node has before a sample
+SAMPLES = 5             # messages that are compared
 CAMERA_RESTS = 1.2      # s, less than stale_after of its cloud
 LOW_PRIORITY = 15       # that the fresh node's is lower by: it is no part of the cell
 SOLVED = (PairStatus.OK, PairStatus.PENETRATING, PairStatus.BUDGET_EXHAUSTED)
@@ -108,9 +109,10 @@ class FreshNode:
                 stream.write(text)
         self.log = open(os.path.join(folder, "fresh.log"), "wb")
         self.process = subprocess.Popen(
-            [program, "__name:=" + FRESH.strip("/"), "_scene_file:=" + os.path.join(self.folder, files[0].name),
-             "_reference_frame:=world", "_rate:=1", "_cache:=off", "_save_folder:=off", "/camera/points:=" + POINTS],
-            stdout=self.log, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL, preexec_fn=lambda: os.nice(LOW_PRIORITY))
+            ["nice", "-n", str(LOW_PRIORITY), program, "__name:=" + FRESH.strip("/"),
+             "_scene_file:=" + os.path.join(self.folder, files[0].name), "_reference_frame:=world",
+             "_rate:=1", "_cache:=off", "_save_folder:=off", "/camera/points:=" + POINTS],
+            stdout=self.log, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL)
         self.get_distances = rospy.ServiceProxy(FRESH + "get_distances", GetDistances)
         self.get_distance = rospy.ServiceProxy(FRESH + "get_distance", GetDistance)
 
@@ -188,19 +190,21 @@ class Comparer:
         return files
 
     def sample(self):
-        """A message of distances and the one of the camera that its cloud is of; None: the camera does not rest."""
+        """Some messages of distances and the one of the camera that their cloud is of; None: the camera does not rest."""
         camera = pid_of("/simulate_camera")
         if camera is None:
             return None
         os.kill(camera, signal.SIGSTOP)
         try:
             time.sleep(CAMERA_RESTS)
-            distances, cloud = self.distances.newest()[-1], self.camera.newest()[-1]
+            distances, cloud = self.distances.newest(), self.camera.newest()[-1]
         finally:
             os.kill(camera, signal.SIGCONT)
-        if distances[0] < cloud[0] + 0.5 * CAMERA_RESTS:
+        known = [buffer for at, buffer in distances if at > cloud[0] + 0.5 * CAMERA_RESTS]
+        if len(known) < SAMPLES:
             return None
-        return Distances().deserialize(distances[1]), PointCloud2().deserialize(cloud[1])
+        chosen = known[len(known) % SAMPLES::len(known) // SAMPLES]
+        return [Distances().deserialize(buffer) for buffer in chosen], PointCloud2().deserialize(cloud[1])
 
     def _wait_for_listener(self):
         end = time.monotonic() + LONGEST_WAIT
@@ -216,8 +220,9 @@ class Comparer:
         self._wait_for_listener()
         self.publisher.publish(sample[1])
         has_cloud = node.has_cloud()
-        seen = [pair for pair in sample[0].pairs if pair.status.code in SOLVED and (has_cloud or not has_camera(pair))]
-        found.unsolved = len(sample[0].pairs) - len(seen)
+        pairs = [pair for message in sample[0] for pair in message.pairs]
+        seen = [pair for pair in pairs if pair.status.code in SOLVED and (has_cloud or not has_camera(pair))]
+        found.unsolved = len(pairs) - len(seen)
         lists = [message for message in (topic.at(pair.header.stamp) for topic in self.pair_topics for pair in seen
                                          if pair.pair == topic.pair) if message]
         answers = node.get_distances([query_of(pair) for pair in seen] +
