@@ -21,7 +21,7 @@ from sensor_msgs.msg import PointCloud2
 NODE = "/concave_distance/"
 FRESH = "/soak_fresh/"
 POINTS = "/soak_fresh_points"
-TOLERANCE = 1e-12       # m: two proofs of one distance, each rounded by 2^-45 of some metres at most (doc/numerics.md)
+TOLERANCE = 1e-11       # m: two proofs of one distance, each rounded by 2^-45 of at most 100 m (doc/numerics.md)
 NICHE_TOLERANCE = 1e-9  # m: distances and points of niches, which are found from other starts
 LONGEST_START = 60.0    # s
 LONGEST_WAIT = 10.0     # s for a scene that rests, and for a cloud
