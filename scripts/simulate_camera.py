@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """The demo clouds: a depth camera beside the arm sees a ball that comes and goes, the floor, and the arm itself.
 
-rosrun concave_distance simulate_camera.py [_rate:=5] [_width:=80] [_height:=60]
+rosrun concave_distance simulate_camera.py [_rate:=5] [_width:=80] [_height:=60] [_still:=true]
 Publishes /camera/points (sensor_msgs/PointCloud2, with 2 mm of noise) and the static transform of its frame; at rate
-0 that transform alone. The links of the arm count as capsules between the origins of their frames, which is all that this camera knows of them.
+0 that transform alone. Still, the ball is at rest and the noise is that of one picture. The links of the arm count as capsules between the origins of their frames, which is all that this camera knows of them.
 """
 
 import math
@@ -62,6 +62,7 @@ class Camera:
         self.local /= numpy.linalg.norm(self.local, axis=1, keepdims=True)
         self.rays = self.local @ axes().T
         self.engine = numpy.random.default_rng(1)
+        self.still = rospy.get_param("~still", False)
         self.buffer = tf2_ros.Buffer()
         tf2_ros.TransformListener(self.buffer)
         self.publisher = rospy.Publisher("camera/points", PointCloud2, queue_size=1)
@@ -94,7 +95,10 @@ class Camera:
 
     def look(self, _event):
         stamp = rospy.Time.now()
-        depth = to_spheres(self.rays, ball_at(stamp.to_sec()), BALL_RADIUS)
+        if self.still:
+            self.engine = numpy.random.default_rng(1)
+        ball = ball_at(0.0 if self.still else stamp.to_sec())
+        depth = to_spheres(self.rays, ball, BALL_RADIUS)
         down = self.rays[:, 2]
         depth = numpy.minimum(depth, numpy.where(down < -1e-6, -EYE[2] / numpy.minimum(down, -1e-6), numpy.inf))
         for point in self.arm(stamp):

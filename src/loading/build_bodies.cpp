@@ -13,6 +13,7 @@
 #include "concave_distance/search/prepare_search.h"
 #include "mesh/body_key.h"
 #include "scene/body_pool.h"
+#include "scene/cloud_bodies.h"
 
 namespace concave_distance::detail {
 namespace {

@@ -7,6 +7,7 @@
 
 #include "base/number_text.h"
 #include "body_placement.h"
+#include "cloud_bodies.h"
 #include "matching_bodies.h"
 #include "scene_edits.h"
 #include "set_warning_distance.h"

@@ -11,6 +11,22 @@
 
 namespace concave_distance::detail {
 
+/// Returns whether a body's size limits its margin: a robot's is for all its links, also those that are
+/// smaller, and how large a cloud will be nobody knows.
+inline bool limitsMargin(const SceneBody& body) {
+  return !body.is_robot_link && !body.cloud;
+}
+
+/// Returns whether a body is a cloud that has come, and nothing is there: it is infinitely far from all.
+inline bool isEmptyCloud(const SceneBody& body) {
+  return body.cloud && body.cloud->stamp && !body.cloud->hasVoxels();
+}
+
+/// Returns whether lists of all pairs' niches have those of a body's pairs: of a cloud on request.
+inline bool hasNiches(const SceneBody& body) {
+  return !body.cloud || body.cloud->settings->niches;
+}
+
 /// Returns the bodies of which no point counts in a cloud, places in scene.bodies: links of robots, what is
 /// attached to one, and what the cloud's `leave_out` names. @param unknown gets names that no body has
 std::vector<std::size_t> bodiesLeftOut(const Scene& scene, const SceneBody& cloud,

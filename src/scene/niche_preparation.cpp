@@ -11,6 +11,7 @@
 #include "base/give_way.h"
 #include "base/helper_threads.h"
 #include "body_preparation.h"
+#include "cloud_bodies.h"
 #include "concave_distance/search/prepare_search.h"
 #include "mesh/trees/normal_cone_tree.h"
 #include "near_pairs.h"
@@ -89,13 +90,14 @@ void NichePreparation::addAhead(const Scene& scene, const std::vector<std::share
   if (triangles > kMostTrianglesAhead) return;
   try {
     for (const auto& pair : pairs) {
-      if (pair->origin->enabled && hasNiches(*pair->body_a) && hasNiches(*pair->body_b)) isPrepared(*pair);
+      if (pair->origin->enabled && detail::hasNiches(*pair->body_a) && detail::hasNiches(*pair->body_b))
+        isPrepared(*pair);
     }
     // Which of the others will be near is not known: each mesh once, as if against itself.
     const TrackerParameters& parameters = scene.defaults.pairs.tracker;
     if (!provesDistance(parameters.accuracy)) return;
     for (const SceneBody& body : scene.bodies) {
-      if (mayBeNear(body) && hasNiches(body)) addAhead(body.mesh, parameters);
+      if (mayBeNear(body) && detail::hasNiches(body)) addAhead(body.mesh, parameters);
     }
   } catch (const std::bad_alloc&) {
     // The scene is tracked already; a cycle that wants the niches tries again.

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/constants.h"
+#include "cloud_bodies.h"
 #include "concave_distance/scene/broad_phase.h"
 #include "niche_preparation.h"
 
@@ -49,7 +50,7 @@ bool TrackedPair::locate(const PairInput& next, const std::atomic<bool>* stop) {
     endWithoutAnswer(PairState::NotLocated);
     return false;
   }
-  if (isEmptyCloud(*body_a) || isEmptyCloud(*body_b)) {
+  if (detail::isEmptyCloud(*body_a) || detail::isEmptyCloud(*body_b)) {
     stayBeyond(kInfinity);
     return false;
   }

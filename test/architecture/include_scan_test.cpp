@@ -44,7 +44,7 @@ TEST(Architecture, FewHeadersArePublic) {
     headers += entry.path().extension() == ".h" ? 1 : 0;
   }
   EXPECT_GT(headers, 30U);
-  EXPECT_LE(headers, 63U) << "each is a promise to keep";
+  EXPECT_LE(headers, 64U) << "each is a promise to keep";
 }
 
 TEST(IncludeScan, AcceptsTheSameFolderALowerOneAndLibraries) {

@@ -86,8 +86,12 @@ void expectTheSameReading(const std::string& text) {
   const auto wanted = std::from_chars(text.data(), text.data() + text.size(), theirs);
   ASSERT_EQ(read.ptr, wanted.ptr) << text;
   ASSERT_EQ(read.ec == std::errc(), wanted.ec == std::errc()) << text;
-  if (wanted.ec == std::errc::invalid_argument) ASSERT_EQ(read.ec, wanted.ec) << text;
-  if (wanted.ec == std::errc()) ASSERT_EQ(std::memcmp(&ours, &theirs, sizeof ours), 0) << text;
+  if (wanted.ec == std::errc::invalid_argument) {
+    ASSERT_EQ(read.ec, wanted.ec) << text;
+  }
+  if (wanted.ec == std::errc()) {
+    ASSERT_EQ(std::memcmp(&ours, &theirs, sizeof ours), 0) << text;
+  }
 }
 
 TEST(NumbersByC, AreReadAsCharconvReadsThem) {

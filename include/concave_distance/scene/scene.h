@@ -78,22 +78,6 @@ struct SceneBody {
   const std::string& pairLabel() const { return label.empty() ? name : label; }
 };
 
-/// Returns whether a body's size limits its margin: a robot's is for all its links, also those that are
-/// smaller, and how large a cloud will be nobody knows.
-inline bool limitsMargin(const SceneBody& body) {
-  return !body.is_robot_link && !body.cloud;
-}
-
-/// Returns whether a body is a cloud that has come, and nothing is there: it is infinitely far from all.
-inline bool isEmptyCloud(const SceneBody& body) {
-  return body.cloud && body.cloud->stamp && !body.cloud->hasVoxels();
-}
-
-/// Returns whether lists of all pairs' niches have those of a body's pairs: of a cloud on request.
-inline bool hasNiches(const SceneBody& body) {
-  return !body.cloud || body.cloud->settings->niches;
-}
-
 /// Checks a margin that a person has given for a body.
 /// @throws Error naming `where` for one that is negative, not finite or larger than the body: probably not
 /// metres

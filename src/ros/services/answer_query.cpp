@@ -17,6 +17,7 @@
 #include "ros/messages/conversions.h"
 #include "ros/tf/cloud_age.h"
 #include "ros/tf/tf_poses.h"
+#include "scene/cloud_bodies.h"
 #include "scene/scene_edits.h"
 
 namespace concave_distance {
@@ -109,7 +110,7 @@ std::optional<PairStatus> statusOfClouds(const SceneBody& a, const SceneBody& b,
     if (const auto why = whyUnusable(body->name, *body->cloud, now))
       return toStatus(why->status, why->message);
   }
-  if (!isEmptyCloud(a) && !isEmptyCloud(b)) return std::nullopt;
+  if (!detail::isEmptyCloud(a) && !detail::isEmptyCloud(b)) return std::nullopt;
   PairStatus status;
   status.code = PairStatus::BEYOND_CUTOFF;
   status.message = "the cloud has no occupied voxel: there is nothing to be near";

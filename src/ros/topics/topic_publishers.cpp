@@ -17,6 +17,7 @@
 #include "ros/markers/scene_markers.h"
 #include "ros/messages/contact_conversions.h"
 #include "ros/time_difference.h"
+#include "scene/cloud_bodies.h"
 
 namespace concave_distance {
 namespace {
@@ -182,7 +183,7 @@ PairDemand TopicPublishers::demandOf(const ServedScene& served, std::size_t plac
   pair.effects = contacts || (contact_markers_wanted_ && settings.effects.any());
   // A contact's id is its niche's.
   pair.niches = own_niches || rows || pair.effects;
-  if (!pair.niches && hasNiches(*tracked.body_a) && hasNiches(*tracked.body_b)) {
+  if (!pair.niches && detail::hasNiches(*tracked.body_a) && detail::hasNiches(*tracked.body_b)) {
     pair.niches = niches_wanted_ || (markers_wanted_ && drawing_->demand().wantsNiches(tracked.origin->name));
   }
   return pair;
