@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """The demo crowd: adds bodies of many shapes to the node's scene in one batch, and moves each on a path of its own.
 
-rosrun concave_distance move_crowd.py [_bodies:=200] [_rate:=50] [_speed:=1]
-The bodies stand on a floor, with 2.2 square metres each; each is in a tf frame of its own, which follows a sum of
-slow sines about the body's home.
+rosrun concave_distance move_crowd.py [_bodies:=200] [_rate:=50] [_speed:=1] [_clear_radius:=0]
+The bodies stand on a floor, with 2.2 square metres each, around a disc about the origin where none has its home; each
+is in a tf frame of its own, which follows a sum of slow sines about the body's home.
 """
 
 import math
@@ -71,13 +71,15 @@ class Walker:
         message.transform.rotation.w = math.cos(0.5 * self.turn * time)
 
 
-def homes_of(count, engine):
-    """Places on a grid, each a little off."""
+def homes_of(count, engine, clear_radius):
+    """Places on a grid, each a little off, moved outwards so that a disc is clear and each keeps its area."""
     columns = int(math.ceil(math.sqrt(1.5 * count)))
     rows = int(math.ceil(count / columns))
     step = math.sqrt(AREA)
-    return [(step * (index % columns - 0.5 * (columns - 1)) + engine.uniform(-0.3, 0.3),
-             step * (index // columns - 0.5 * (rows - 1)) + engine.uniform(-0.3, 0.3)) for index in range(count)]
+    places = [(step * (index % columns - 0.5 * (columns - 1)) + engine.uniform(-0.3, 0.3),
+               step * (index // columns - 0.5 * (rows - 1)) + engine.uniform(-0.3, 0.3)) for index in range(count)]
+    stretch = [math.hypot(1.0, clear_radius / math.hypot(*place)) for place in places]
+    return [(factor * x, factor * y) for factor, (x, y) in zip(stretch, places)]
 
 
 def main():
@@ -85,7 +87,7 @@ def main():
     count = int(rospy.get_param("~bodies", 200))
     speed = rospy.get_param("~speed", 1.0)
     engine = random.Random(SEED)
-    walkers = [Walker(home, engine) for home in homes_of(count, engine)]
+    walkers = [Walker(home, engine) for home in homes_of(count, engine, rospy.get_param("~clear_radius", 0.0))]
     operations, transforms = [], []
     for index in range(count):
         frame = "walker_%d" % index

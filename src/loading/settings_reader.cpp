@@ -4,6 +4,7 @@
 #include "effects_reader.h"
 #include "parameter_map.h"
 #include "scene/pair_parameters.h"
+#include "scene/set_warning_distance.h"
 #include "search/genetic_parameter_table.h"
 
 namespace concave_distance::detail {
@@ -64,12 +65,7 @@ void validatePairSettings(const PairSettings& settings, const std::string& where
                     ", which does not prove that bodies are apart",
                 "set accuracy to certified, or effects to none");
   }
-  if (settings.warning_distance && *settings.warning_distance > settings.tracker.cutoff) {
-    throw Error(where,
-                "warning_distance " + toText(*settings.warning_distance) + " m is beyond the cutoff of " +
-                    toText(settings.tracker.cutoff) + " m",
-                "nothing is computed there: raise cutoff or lower warning_distance");
-  }
+  requireWarningWithinCutoff(settings, where);
 }
 
 std::optional<double> readEdgeLength(const YamlValue& value) {

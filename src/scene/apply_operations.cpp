@@ -10,6 +10,7 @@
 #include "cloud_bodies.h"
 #include "matching_bodies.h"
 #include "scene_edits.h"
+#include "set_warning_distance.h"
 
 namespace concave_distance::detail {
 namespace {
@@ -19,6 +20,7 @@ OperationRemark add(Scene& scene, const SceneOperation& operation, const FramesN
   if (operation.warning_distance) {
     settings.warning_distance = operation.warning_distance;
     settings.warning_hysteresis = operation.warning_hysteresis;
+    requireWarningWithinCutoff(settings, "body '" + operation.body + "'");
   }
   PairPartners partners = operation.partners;
   partners.is_rigid = [&](const std::string& a, const std::string& b) {

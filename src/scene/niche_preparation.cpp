@@ -1,5 +1,7 @@
 #include "niche_preparation.h"
 
+#include <tbb/task_arena.h>
+
 #include <algorithm>
 #include <iterator>
 #include <new>
@@ -146,29 +148,41 @@ bool NichePreparation::isBegunAhead(const std::shared_ptr<const BodyMesh>& mesh)
   return false;
 }
 
+// No worker helps: one that this thread had begun would have its low priority in the cycles too.
 void NichePreparation::work() {
   giveWay();
-  const auto first = [this] {
-    return std::find_if(waiting_.begin(), waiting_.end(), [](const auto& list) { return !list.empty(); });
-  };
+  tbb::task_arena alone(1);
   std::unique_lock<std::mutex> lock(mutex_);
   for (;;) {
     added_.wait(lock, [&] { return is_ending_ || first() != waiting_.end(); });
     if (is_ending_) return;
     const auto list = first();
     const bool is_search = list == waiting_.end() - 1;
+    if (!list->front().is_ahead && list->front().task.use_count() == 1) {  // the pair is gone
+      list->pop_front();
+      continue;
+    }
+    if (is_search && Clock::now() < list->front().search_due) {
+      added_.wait_until(lock, list->front().search_due);
+      continue;
+    }
     Entry entry = std::move(list->front());
     list->pop_front();
-    if (!entry.is_ahead && entry.task.use_count() == 1) continue;  // the pair is gone
     lock.unlock();
-    if (is_search) {
-      entry.task->makeSearch();
-    } else {
-      entry.task->makeNiches();
-    }
+    alone.execute([&] {
+      if (is_search) {
+        entry.task->makeSearch();
+      } else {
+        entry.task->makeNiches();
+      }
+    });
     lock.lock();
     if (!is_search && !entry.is_ahead) waiting_.back().push_back(std::move(entry));
   }
+}
+
+NichePreparation::Lists::iterator NichePreparation::first() {
+  return std::find_if(waiting_.begin(), waiting_.end(), [](const auto& list) { return !list.empty(); });
 }
 
 }  // namespace concave_distance

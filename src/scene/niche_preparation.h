@@ -2,6 +2,7 @@
 
 #include <array>
 #include <atomic>
+#include <chrono>
 #include <condition_variable>
 #include <cstddef>
 #include <deque>
@@ -50,7 +51,8 @@ class PreparationTask {
 };
 
 /// Runs such tasks on a thread of its own that gives way to others, so that no cycle waits for them: first
-/// the niches of pairs, then those of meshes that may come near, then the searches of pairs.
+/// the niches of pairs, then those of meshes that may come near, then the searches of pairs that have lasted
+/// for a second: the surface of a cloud is replaced before.
 class NichePreparation {
  public:
   NichePreparation() = default;
@@ -66,12 +68,17 @@ class NichePreparation {
   bool isPrepared(TrackedPair& pair);
 
  private:
+  using Clock = std::chrono::steady_clock;
   struct Entry {
     std::shared_ptr<PreparationTask> task;
     bool is_ahead = false;  ///< nobody else has it
+    Clock::time_point search_due = Clock::now() + kLasting;
   };
+  static constexpr std::chrono::seconds kLasting{1};
+  using Lists = std::array<std::deque<Entry>, 3>;
   void add(Entry entry);
   void work();
+  Lists::iterator first();
   void addAhead(const std::shared_ptr<const BodyMesh>& mesh, const TrackerParameters& parameters);
   bool isBegunAhead(const std::shared_ptr<const BodyMesh>& mesh);
   std::unordered_map<const BodyMesh*, std::weak_ptr<const BodyMesh>> begun_ahead_;
@@ -79,7 +86,7 @@ class NichePreparation {
 
   std::mutex mutex_;  ///< of the following
   std::condition_variable added_;
-  std::array<std::deque<Entry>, 3> waiting_;  ///< pairs, meshes, searches
+  Lists waiting_;  ///< pairs, meshes, searches
   bool is_ending_ = false;
   std::thread thread_;  ///< begins with the first task
 };

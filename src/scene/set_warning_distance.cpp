@@ -17,16 +17,27 @@ void requireLength(const std::string& field, double value) {
 
 }  // namespace
 
+void requireWarningWithinCutoff(const PairSettings& settings, const std::string& where) {
+  if (settings.warning_distance && *settings.warning_distance > settings.tracker.cutoff) {
+    throw Error(where,
+                "warning_distance " + numberText(*settings.warning_distance) + " m is beyond the cutoff of " +
+                    numberText(settings.tracker.cutoff) + " m",
+                "nothing is computed there: raise cutoff or lower warning_distance");
+  }
+}
+
 std::vector<std::string> setWarningDistance(Scene& scene, const std::string& pattern,
                                             std::optional<double> distance, double hysteresis) {
   if (distance) {
     requireLength("warning_distance", *distance);
     requireLength("warning_hysteresis", hysteresis);
   }
-  return detail::changeMatchingPairs(scene, pattern, [&](const std::string&, bool&, PairSettings& settings) {
-    settings.warning_distance = distance;
-    if (distance) settings.warning_hysteresis = hysteresis;
-  });
+  return detail::changeMatchingPairs(scene, pattern,
+                                     [&](const std::string& where, bool&, PairSettings& settings) {
+                                       settings.warning_distance = distance;
+                                       if (distance) settings.warning_hysteresis = hysteresis;
+                                       requireWarningWithinCutoff(settings, where);
+                                     });
 }
 
 }  // namespace concave_distance

@@ -161,6 +161,20 @@ TEST(ApplyOperations, NamesEachFault) {
   expect({add(body("tray", "arm")), move("tray", at(0))}, {"tf moves its frame 'arm'"});
 }
 
+TEST(ApplyOperations, RefusesAWarningBeyondTheCutoff) {
+  Scene scene = cell();
+  scene.defaults.pairs.tracker.cutoff = 0.5;
+  SceneOperation added = add(body("tray", "arm"));
+  added.warning_distance = 0.75;
+  const AppliedOperations applied = run(scene, {added});
+  ASSERT_EQ(applied.faults.size(), 1U);
+  EXPECT_TRUE(mentions(applied.faults[0].error.what(),
+                       "body 'tray': warning_distance 0.75 m is beyond the cutoff of 0.5 m"))
+      << applied.faults[0].error.what();
+  added.warning_distance = 0.5;
+  EXPECT_TRUE(run(scene, {added}).faults.empty());
+}
+
 TEST(ApplyOperations, RefusesABodyThatIsBeyondTheLimitAndABatchThatIsTooLong) {
   Scene scene = cell();
   scene.limits.bodies = 6;

@@ -2,9 +2,14 @@
 #include "scene/niche_preparation.h"
 
 #include <gtest/gtest.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <iterator>
+#include <optional>
 #include <thread>
 
 #include "concave_distance/scene/scene_tracker.h"
@@ -113,6 +118,38 @@ TEST(NichePreparation, ListsAreCompleteBeforeTheSearchIsMadeWhichJoinsLater) {
   EXPECT_EQ(pair.solution.cost.generations, 1U);
   EXPECT_TRUE(pair.solution.niches_complete);
   EXPECT_EQ(pair.solution.niches.size(), niches);
+}
+
+// The surface of a cloud is replaced some times a second, sooner than a grid pays for itself.
+TEST(NichePreparation, TheSearchIsMadeOfWhatHasLastedForASecond) {
+  const auto begin = std::chrono::steady_clock::now();
+  SceneTracker tracker({1, nullptr, true});
+  tracker.setScene(twoBumpyBalls());
+  const TrackedPair& pair = *tracker.pairs()[0];
+  ASSERT_TRUE(pair.preparation);
+  for (int k = 0; !pair.preparation->isSearchDone() && k < 60'000; ++k)
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  EXPECT_TRUE(pair.preparation->isSearchDone());
+  EXPECT_GE(std::chrono::steady_clock::now() - begin, std::chrono::seconds(1));
+}
+
+// The process ends with the number of its threads after a preparation in the background.
+[[noreturn]] void prepareAndExit() {
+  tbb::task_arena alone(1);
+  std::optional<Scene> scene;
+  alone.execute([&] { scene = twoBumpyBalls(); });
+  SceneTracker tracker({1, nullptr, true});
+  alone.execute([&] { tracker.setScene(*scene); });
+  while (!tracker.pairs()[0]->preparation->isSearchDone())
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  const std::filesystem::directory_iterator threads("/proc/self/task");
+  std::_Exit(static_cast<int>(std::distance(begin(threads), end(threads))));
+}
+
+// Workers have the priority of the thread that begins them: one of the background's would hold up cycles.
+TEST(NichePreparation, ItBeginsNoWorker) {
+  ::testing::FLAGS_gtest_death_test_style = "threadsafe";
+  EXPECT_EXIT(prepareAndExit(), ::testing::ExitedWithCode(2), "");
 }
 
 TEST(NichePreparation, ItKeepsNoMeshThatIsGoneAndMakesNothingForAPairThatIs) {

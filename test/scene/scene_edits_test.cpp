@@ -212,6 +212,27 @@ TEST(PairRules, TakeSettingsAndNamesByPatternWithoutAList) {
   EXPECT_EQ(countRuledPairs(scene, {false, true, false, false, false, false, false, true, false}), 15U + 6U);
 }
 
+// A scene file with it would not load again.
+TEST(SetWarningDistance, RefusesOneBeyondTheCutoffOfAPair) {
+  Scene scene = threeBodies();
+  scene.defaults.pairs.tracker.cutoff = 0.5;
+  addBody(scene, body("cup", "cup"), {}, scene.defaults.pairs);
+  for (const std::string pattern : {"cup/*", "cup/table"}) {
+    EXPECT_FALSE(setWarningDistance(scene, pattern, 0.5, 0.0).empty());
+    Scene edited = scene;
+    try {
+      setWarningDistance(edited, pattern, 0.75, 0.0);
+      FAIL() << pattern;
+    } catch (const Error& error) {
+      const std::string text = error.what();
+      EXPECT_NE(text.find("'" + pattern + "': warning_distance 0.75 m is beyond the cutoff of 0.5 m"),
+                std::string::npos)
+          << text;
+      EXPECT_NE(text.find("raise cutoff or lower warning_distance"), std::string::npos) << text;
+    }
+  }
+}
+
 // The number that is counted by classes is that of the pairs tried one by one.
 TEST(PairRules, CountWhatTheyWatch) {
   for (unsigned seed = 1; seed <= 40; ++seed) {

@@ -45,7 +45,7 @@ class CloudReceiver {
     topic_tools::ShapeShifter::ConstPtr message;
     Clock::time_point time;
   };
-  /// What a body is made of.
+  /// This is what a body is made of.
   struct Made {
     VoxelGrid voxels;
     Eigen::Isometry3d frame_from_voxels;
