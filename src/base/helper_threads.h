@@ -16,4 +16,14 @@ void runWithHelpers(std::size_t helpers, const std::function<void()>& work);
 /// stage's is thrown. For preparation, not for hot paths.
 void runTogether(std::initializer_list<std::function<void()>> stages);
 
+/// While one lives, what its thread runs together has threads that end with it and begin with its priority:
+/// workers of TBB stay, and cycles would wait for one that the background began.
+class OwnThreads {
+ public:
+  OwnThreads();
+  ~OwnThreads();
+  OwnThreads(const OwnThreads&) = delete;
+  OwnThreads& operator=(const OwnThreads&) = delete;
+};
+
 }  // namespace concave_distance

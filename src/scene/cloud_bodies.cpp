@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/helper_threads.h"
 #include "concave_distance/base/error.h"
 #include "distance/bound/closest_point.h"
 #include "matching_bodies.h"
@@ -61,9 +62,10 @@ bool PointFilter::isOnBody(const Eigen::Vector3d& point) const {
 
 std::shared_ptr<const BodyMesh> makeCloudMesh(const std::string& name, const VoxelGrid& voxels) {
   std::shared_ptr<const BodyMesh> mesh;
-  // Two threads at most: workers that help here are missing in the cycle until their task ends.
-  tbb::task_arena(2).execute(
-      [&] { mesh = std::make_shared<const BodyMesh>(name, voxels.surface("cloud '" + name + "'")); });
+  tbb::task_arena(1).execute([&] {
+    const OwnThreads own;
+    mesh = std::make_shared<const BodyMesh>(name, voxels.surface("cloud '" + name + "'"));
+  });
   return mesh;
 }
 

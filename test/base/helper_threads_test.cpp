@@ -7,7 +7,9 @@
 #include <atomic>
 #include <chrono>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <thread>
 
 namespace concave_distance::helper_threads_test {
@@ -47,6 +49,41 @@ TEST(RunWithHelpersDeathTest, GoesOnWithTheThreadsThatThereAre) {
     std::_Exit(count > 1 && count < 1000 ? 0 : 3);
   };
   EXPECT_EXIT(with_few_threads(), ::testing::ExitedWithCode(0), "");
+}
+
+// Waits until the other stage runs too, or for five seconds.
+bool meet(std::atomic<int>& here) {
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(5);
+  ++here;
+  while (here < 2 && std::chrono::steady_clock::now() < end) std::this_thread::yield();
+  return here == 2;
+}
+
+TEST(OwnThreads, StagesRunBesideEachOtherWithoutAWorker) {
+  ::testing::FLAGS_gtest_death_test_style = "threadsafe";
+  const auto meet_and_exit = [] {
+    std::atomic<int> here{0};
+    bool met = true;
+    {
+      const OwnThreads own;
+      runTogether({[&] { met = meet(here) && met; }, [&] { meet(here); }});
+    }
+    const std::filesystem::directory_iterator threads("/proc/self/task");
+    std::_Exit(met ? static_cast<int>(std::distance(begin(threads), end(threads))) : 99);
+  };
+  EXPECT_EXIT(meet_and_exit(), ::testing::ExitedWithCode(1), "");
+}
+
+TEST(OwnThreads, WhatTheFirstStageThrowsArrivesOnceAllHaveEnded) {
+  const OwnThreads own;
+  std::atomic<int> ended{0};
+  try {
+    runTogether({[&] { ++ended; }, [&] { throw 2; }, [&] { throw 3; }, [&] { ++ended; }});
+    ADD_FAILURE() << "nothing was thrown";
+  } catch (int stage) {
+    EXPECT_EQ(stage, 2);
+  }
+  EXPECT_EQ(ended, 2);
 }
 
 }  // namespace
