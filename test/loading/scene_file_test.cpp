@@ -85,7 +85,8 @@ TEST_F(SceneFile, MoreThanAMillionValuesAreRefused) {
 }
 
 TEST_F(SceneFile, UnknownKeysAreRefusedEverywhere) {
-  expectRefused("bodys: []\n", "scene.yaml:1, bodys", "key 'bodys' is not known", "robots, bodies, groups");
+  expectRefused("bodys: []\n", "scene.yaml:1, bodys", "key 'bodys' is not known",
+                "robots, bodies, clouds, groups");
   expectRefused("defaults:\n  cutof: 1\n", "scene.yaml:2, defaults.cutof", "not known", "cutoff");
   expectRefused("defaults:\n  expert:\n    cold:\n      generation_gap: 1\n",
                 "scene.yaml:4, defaults.expert.cold.generation_gap", "not known", "population_size");
