@@ -21,7 +21,7 @@ if [ -z "${CONCAVE_DISTANCE_NOETIC_INSIDE:-}" ]; then
   CONCAVE_DISTANCE_NOETIC_INSIDE=1 exec unshare --mount --propagation private "$0" "$what" "$@"
 fi
 
-folder="${CONCAVE_DISTANCE_NOETIC:-${XDG_CACHE_HOME:-$HOME/.cache}/concave_distance/noetic}"
+folder="${CONCAVE_DISTANCE_NOETIC:-${XDG_CACHE_HOME:-$HOME/.cache}/concave_distance_noetic}"
 root="$folder/root"
 inside() {
   chroot "$root" env -i HOME=/tmp PATH=/usr/sbin:/usr/bin:/sbin:/bin DEBIAN_FRONTEND=noninteractive LC_ALL=C.UTF-8 \
