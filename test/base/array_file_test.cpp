@@ -1,10 +1,10 @@
 #include "base/array_file.h"
 
 #include <gtest/gtest.h>
-#include <xxhash.h>
 #include <sys/wait.h>
 #include <tbb/global_control.h>
 #include <unistd.h>
+#include <xxhash.h>
 
 #include <filesystem>
 #include <numeric>
