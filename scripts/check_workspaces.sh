@@ -12,7 +12,7 @@ source_ros
 exec </dev/null
 
 # Outside of the package: it links to the package, and catkin and roslaunch search a package's folders.
-work="${CONCAVE_DISTANCE_WORKSPACES:-${XDG_CACHE_HOME:-$HOME/.cache}/concave_distance/workspaces}"
+work="${CONCAVE_DISTANCE_WORKSPACES:-${XDG_CACHE_HOME:-$HOME/.cache}/concave_distance_workspaces}"
 jobs="${CONCAVE_DISTANCE_JOBS:-$(job_count)}"
 options=(-DCONCAVE_DISTANCE_FAST_BUILD=ON -DCMAKE_BUILD_TYPE=Release)
 if command -v ccache >/dev/null; then

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Installs what the package needs from the distribution's packages, only what is missing.
 #   scripts/install_dependencies.sh [node] [build] [test] [demo] [plot] [format] [lint] [fuzz] [sanitize] [engines] [doxygen]  (default: build test demo)
+#   scripts/install_dependencies.sh --print debian|noetic GROUP ...    the packages' names, a line each; nothing is installed
 # node: for building the node; build: for building the other programs too.
 # Debian 12 has everything in its main archive. Ubuntu 20.04 needs the ROS Noetic archive set up beforehand.
 set -euo pipefail
@@ -78,6 +79,16 @@ set -euo pipefail
   noetic_sanitize=(dpkg-dev)
   noetic_engines=(libsimbody-dev libode-dev)
 }
+
+if [ "${1:-}" = --print ]; then
+  family="$2"
+  shift 2
+  for group in "$@"; do
+    declare -n packages="${family}_${group}"
+    printf '%s\n' "${packages[@]}"
+  done
+  exit 0
+fi
 
 # shellcheck disable=SC1091
 distribution="$(. /etc/os-release 2>/dev/null && echo "${ID:-unknown} ${VERSION_ID:-unknown}")"

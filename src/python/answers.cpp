@@ -112,7 +112,7 @@ void bindAnswers(py::module_& module) {
       .def_property_readonly(
           "bodies",
           [](const py::object& self) {
-            return viewOf(self.cast<const SceneAnswers*>()->bodies, self).reshape({-1, 2});
+            return viewOf(self.cast<const SceneAnswers*>()->bodies, self).attr("reshape")(-1, 2);
           },
           "(n, 2) int64: places of A and B in Scene.body_names.")
       .def_property_readonly(

@@ -4,6 +4,7 @@
 #include <sys/wait.h>
 #include <tbb/global_control.h>
 #include <unistd.h>
+#include <xxhash.h>
 
 #include <filesystem>
 #include <numeric>
@@ -175,12 +176,15 @@ TEST(ContentHash, DependsOnOrderSizesAndEveryByteAndNotOnThreads) {
   EXPECT_NE(hashBytes(bytes.data(), bytes.size() - 1), whole);
 }
 
+// Before version 0.8 the values of XXH3 were not final, and others: keys of a cache that is made anew.
+#if XXH_VERSION_NUMBER >= 800
 TEST(ContentHash, IsXxh3) {
   // As `xxhsum -H2` gives it.
   const std::string text = "The quick brown fox jumps over the lazy dog";
   EXPECT_EQ(hashBytes(text.data(), text.size()).text(), "ddd650205ca3e7fa24a1cc2e3a8a7651");
   EXPECT_EQ(hashBytes(text.data(), 0).text(), "99aa06d3014798d86001c324468d497f");
 }
+#endif
 
 }  // namespace
 }  // namespace concave_distance::array_file_test

@@ -63,7 +63,8 @@ SurfaceMesh asImported(const SurfaceMesh& mesh, double scale) {
   TriangleSoup soup;
   for (const Vector3d& v : mesh.vertices()) {
     soup.vertices.emplace_back(scale * v);
-    for (double& coordinate : soup.vertices.back()) coordinate = inSinglePrecision(coordinate);
+    soup.vertices.back() =
+        soup.vertices.back().unaryExpr([](double value) { return inSinglePrecision(value); });
   }
   for (const TriangleNodes& t : mesh.triangles())
     soup.triangles.push_back({t[0].value, t[1].value, t[2].value});

@@ -77,8 +77,8 @@ NicheScene drawNearEdge(RandomEngine& engine) {
 Isometry3d latticePose(RandomEngine& engine, double cell, int reach) {
   Isometry3d pose = Isometry3d::Identity();
   pose.linear() = quarterTurn(engine);
-  for (double& coordinate : pose.translation()) {
-    coordinate =
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    pose.translation()[axis] =
         cell * (static_cast<double>(uniformIndex(engine, static_cast<std::uint32_t>(2 * reach + 1))) - reach);
   }
   return pose;

@@ -61,8 +61,8 @@ std::string writeScene(const test::NicheScene& scene, const std::string& folder,
   for (std::size_t i = 0; i < scene.poses.size(); ++i) {
     poses << 0.01 * static_cast<double>(i);
     const Eigen::Quaterniond turn(scene.poses[i].linear());
-    for (const double value : scene.poses[i].translation()) poses << ',' << value;
-    for (const double value : turn.coeffs()) poses << ',' << value;
+    for (Eigen::Index axis = 0; axis < 3; ++axis) poses << ',' << scene.poses[i].translation()[axis];
+    for (Eigen::Index axis = 0; axis < 4; ++axis) poses << ',' << turn.coeffs()[axis];
     poses << '\n';
   }
   if (!poses) throw Error(path, "the poses cannot be written", "check the folder and its permissions");

@@ -59,7 +59,8 @@ Eigen::Isometry3d nearby(RandomEngine& engine, const Eigen::Isometry3d& pose) {
   Eigen::Matrix3d skew;
   skew << 0, -turn.z(), turn.y(), turn.z(), 0, -turn.x(), -turn.y(), turn.x(), 0;
   moved.linear() = pose.linear() + skew * pose.linear();
-  for (double& coordinate : moved.translation()) {
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    double& coordinate = moved.translation()[axis];
     const double ulp = std::ldexp(std::max(std::abs(coordinate), pose.translation().norm()), -52);
     coordinate += uniformIn(engine, -4.0, 4.0) * ulp;
   }

@@ -54,8 +54,8 @@ std::string writeReproducer(const DifferentialScene& scene, std::uint64_t seed, 
   std::ostringstream line;
   line.precision(17);
   line << "t,x,y,z,qx,qy,qz,qw\n0";
-  for (const double value : scene.b_in_a.translation) line << ',' << value;
-  for (const double value : scene.b_in_a.quaternion) line << ',' << value;
+  for (Eigen::Index i = 0; i < 3; ++i) line << ',' << scene.b_in_a.translation[i];
+  for (Eigen::Index i = 0; i < 4; ++i) line << ',' << scene.b_in_a.quaternion[i];
   line << '\n';
   write(poses, line.str());
   const std::string command = "distance_query --accuracy certified --cache off --mesh-a " + mesh_a +

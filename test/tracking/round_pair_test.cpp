@@ -353,8 +353,8 @@ Isometry3d poseOf(const std::string& text) {
   std::istringstream stream(text);
   Vector3d position;
   Eigen::Quaterniond turn;
-  for (double& coordinate : position) stream >> coordinate;
-  for (double& coordinate : turn.coeffs()) stream >> coordinate;
+  stream >> position.x() >> position.y() >> position.z();
+  stream >> turn.x() >> turn.y() >> turn.z() >> turn.w();
   EXPECT_TRUE(stream) << text;
   Isometry3d pose(turn.normalized());
   pose.translation() = position;

@@ -94,7 +94,7 @@ void run() {
   const double rate = demo::numberParameter(node, "rate", 100.0, 0.1, 2000.0);
   const double scale = demo::numberParameter(node, "scale", 0.35, 1e-3, kRange);
   const Eigen::Isometry3d start = readStart(node);
-  bool idle = node.param("idle_motion", true);
+  bool idle = ros::param::param(node.resolveName("idle_motion"), true);
 
   Eigen::Isometry3d pose = start;
   interactive_markers::InteractiveMarkerServer server("interactive_body");

@@ -25,7 +25,8 @@ namespace {
 using namespace concave_distance;
 
 std::string waitForDescription(const ros::NodeHandle& node) {
-  const std::string name = node.param<std::string>("robot_description", "robot_description");
+  const std::string name =
+      ros::param::param<std::string>(node.resolveName("robot_description"), "robot_description");
   while (ros::ok()) {
     const auto found = searchDescription(node.getNamespace(), name, [&](const std::string& key) {
       std::string text;
@@ -63,7 +64,7 @@ void publishWhatStands(tf2_ros::StaticTransformBroadcaster& broadcaster, const u
 void run() {
   const ros::NodeHandle node("~");
   const double rate = demo::numberParameter(node, "rate", 50.0, 0.1, 2000.0);
-  const std::string motion = node.param<std::string>("motion", "zero");
+  const std::string motion = ros::param::param<std::string>(node.resolveName("motion"), "zero");
   if (motion != "zero" && motion != "sway") {
     throw Error(node.resolveName("motion"), "is '" + motion + "'", "set it to zero or sway");
   }
@@ -74,7 +75,8 @@ void run() {
     throw Error("robot_description", "the URDF cannot be read", "check it with check_urdf");
   }
   tf2_ros::StaticTransformBroadcaster broadcaster;
-  publishWhatStands(broadcaster, *model, node.param<std::string>("root_frame", "world"));
+  publishWhatStands(broadcaster, *model,
+                    ros::param::param<std::string>(node.resolveName("root_frame"), "world"));
 
   sensor_msgs::JointState message;
   std::vector<demo::SwayingJoint> joints = demo::swayingJoints(*model);
