@@ -50,7 +50,7 @@ endforeach()
 install(DIRECTORY config meshes urdf DESTINATION ${CONCAVE_DISTANCE_SHARE_DESTINATION} COMPONENT tools)
 if(CONCAVE_DISTANCE_WITH_ROS)
   install(DIRECTORY launch DESTINATION ${CONCAVE_DISTANCE_SHARE_DESTINATION} COMPONENT node)
-  catkin_install_python(PROGRAMS scripts/follow_rows.py scripts/move_crowd.py scripts/pick_parts.py scripts/show_distances.py
+  catkin_install_python(PROGRAMS scripts/follow_rows.py scripts/move_crowd.py scripts/pick_parts.py scripts/plot_distances.py scripts/show_distances.py
     scripts/view_robot.py src/ros/bridges/cob_bridge.py src/ros/bridges/moveit_bridge.py
     DESTINATION ${CONCAVE_DISTANCE_BIN_DESTINATION})
   install(FILES scripts/row_program.py DESTINATION ${CONCAVE_DISTANCE_BIN_DESTINATION} COMPONENT node)

@@ -129,6 +129,7 @@ const std::vector<std::string>& foldersFromTheGround() {
                                                    "ros/topics",
                                                    "ros/services",
                                                    "ros/node",
+                                                   "ros/bags",
                                                    "ros/guard",
                                                    "ros/demo"};
   return folders;

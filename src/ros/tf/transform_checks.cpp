@@ -66,7 +66,7 @@ std::optional<TransformProblem> findStampProblem(ros::Time stamp, ros::Time now,
   const double ahead = secondsBetween(now, stamp);
   if (ahead > limits.future_tolerance) {
     return TransformProblem{
-        "its stamp is " + numberText(ahead) + " s ahead of this node's clock",
+        "its stamp is " + numberText(ahead) + " s ahead of the clock",
         "check that the clocks of the machines agree, or raise ~tf_future_tolerance, which is " +
             numberText(limits.future_tolerance) + " s"};
   }

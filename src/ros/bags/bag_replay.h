@@ -1,0 +1,120 @@
+#pragma once
+
+#include <concave_distance/PairNiches.h>
+#include <ros/time.h>
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <string>
+#include <unordered_map>
+#include <unordered_set>
+#include <vector>
+
+#include "bag_transforms.h"
+#include "concave_distance/scene/scene.h"
+#include "ros/node/distance_cycle.h"
+#include "ros/tf/transform_buffer.h"
+
+namespace concave_distance {
+
+struct ReplayOptions {
+  CycleOptions cycle;  ///< the number of times is not limited, whatever it says
+  TransformLimits limits;
+  bool niches = false;                ///< they are wanted too
+  std::vector<std::string> patterns;  ///< of the pairs that are followed; empty: all
+};
+
+/// A pair's answer at one time, or why it has none from there on.
+struct BagAnswer {
+  ros::Time recorded;         ///< when the first transform of that stamp was
+  const PairNiches& message;  ///< what the node would publish
+};
+
+struct ReplayCounts {
+  std::uint64_t messages = 0;
+  std::uint64_t transforms = 0;  ///< accepted, of a stamp of their own
+  std::uint64_t stamps = 0;      ///< that a cycle was run for
+  std::uint64_t rows = 0;
+  std::uint64_t answers = 0;  ///< rows with a distance
+  std::uint64_t refused = 0;  ///< transforms that the node refuses, and messages that are none
+  /// The first reason for each frame and sender, up to kMostReasons.
+  std::map<std::string, std::string> reasons;
+};
+
+/// Plays transforms and gives each pair's answer at every stamp of a transform that its place depends on, in
+/// the order of stamps. A stamp waits for others until transforms are newer than it by the time after which
+/// they are stale (or half of the cache), so that slower publishers are interpolated; what the node answers
+/// at a stamp is what is answered here. It has no clock and no budget: the same messages give the same bytes.
+class BagReplay {
+ public:
+  using Sink = std::function<void(const BagAnswer&)>;
+  static constexpr std::size_t kMostReasons = 10;
+
+  /// Time budgets in the scene's settings are not applied. @param sink gets the answers, in their order
+  BagReplay(Scene scene, ReplayOptions options, Sink sink);
+  BagReplay(const BagReplay&) = delete;
+  BagReplay& operator=(const BagReplay&) = delete;
+
+  /// Takes messages in the order of their times.
+  void take(const BagMessage& message);
+  /// Answers what still waits. Call it once, at the end.
+  void finish();
+
+  const ReplayCounts& counts() const { return counts_; }
+  /// Returns whether a pair has a distance, or is proven beyond its cutoff.
+  bool hasAnswer() const;
+  /// Returns the pairs that have rows and not one answer, with the reason of the last.
+  std::map<std::string, std::string> unanswered() const;
+  const TransformBuffer& transforms() const { return buffer_; }
+
+ private:
+  struct FixedChange {
+    geometry_msgs::TransformStamped transform;
+    std::string sender;
+  };
+  using Frames = std::unordered_set<std::string>;
+  /// What happens at one stamp.
+  struct Moment {
+    ros::Time recorded;
+    Frames frames;                     ///< that have a transform of it
+    std::vector<FixedChange> changes;  ///< of static transforms, to be made first
+  };
+  /// The last row of a pair.
+  struct Row {
+    bool is_wanted = false;
+    bool has_row = false;
+    bool has_answer = false;
+    std::uint8_t code = 0;
+    ros::Time stamp;
+    Eigen::Isometry3d a_from_b = Eigen::Isometry3d::Identity();
+    std::string problem;
+  };
+  void takeTransform(const geometry_msgs::TransformStamped& transform, const BagMessage& message);
+  void takeFixed(const geometry_msgs::TransformStamped& transform, const BagMessage& message);
+  Moment& momentAt(ros::Time stamp, ros::Time recorded);
+  void note(const geometry_msgs::TransformStamped& transform, const std::string& sender,
+            const TransformProblem& problem);
+  void answerWhatIsReady(bool is_end);
+  void answer(ros::Time stamp, const Moment& moment);
+  PairDemand demandOf(const TrackedPair& pair, const Moment& moment);
+  void report(const PublishedPair& pair, const Moment& moment);
+  Row& rowOf(const std::string& pair);
+  bool isStopped() const { return options_.cycle.stop != nullptr && *options_.cycle.stop; }
+
+  const ReplayOptions options_;
+  const double lag_;  ///< s
+  const Sink sink_;
+  ros::Time now_;
+  TransformBuffer buffer_;
+  DistanceCycle cycle_;
+  std::map<ros::Time, Moment> waiting_;
+  std::map<ros::Time, Frames> answered_;  ///< as far back as the buffer takes transforms
+  ros::Time newest_;                      ///< stamp of a moving transform
+  std::unordered_map<std::string, geometry_msgs::TransformStamped> fixed_;
+  std::unordered_map<std::string, Row> rows_;
+  std::vector<char> depends_;  ///< of each body on the moment's frames; 2: not looked up yet
+  ReplayCounts counts_;
+};
+
+}  // namespace concave_distance
