@@ -7,6 +7,7 @@
 #include "base/log_throttle.h"
 #include "base/number_text.h"
 #include "kinematics/frame_name.h"
+#include "ros/tf/transform_checks.h"
 #include "ros/time_difference.h"
 #include "scene/name_pattern.h"
 
@@ -81,16 +82,26 @@ void BagReplay::takeTransform(const geometry_msgs::TransformStamped& transform, 
     takeFixed(transform, message);
     return;
   }
-  if (const auto problem = buffer_.insert(transform, message.sender, false)) {
-    note(transform, message.sender, *problem);
-    return;
-  }
   const ros::Time stamp = transform.header.stamp;
   const std::string frame = withoutLeadingSlash(transform.child_frame_id);
+  const auto last = newest_of_frame_.find(frame);
+  const bool ends_gap =
+      last != newest_of_frame_.end() && secondsBetween(last->second, stamp) > options_.cycle.stale_after;
+  if (ends_gap || held_.count(frame) != 0) {
+    if (const auto problem = findTransformProblem(transform, false, now_, options_.limits)) {
+      note(transform, message.sender, *problem);
+      return;
+    }
+    if (held_.count(frame) == 0) momentAt(stamp, message.time).gaps_end.insert(frame);
+    held_[frame].push_back({transform, message.sender});
+  } else if (!insert(transform, message.sender, false)) {
+    return;
+  }
   const auto answered = answered_.find(stamp);
   // tf keeps the first of a stamp.
   if (answered != answered_.end() && answered->second.count(frame) != 0) return;
   newest_ = std::max(newest_, stamp);
+  newest_of_frame_[frame] = std::max(newest_of_frame_[frame], stamp);
   if (momentAt(stamp, message.time).frames.insert(frame).second) ++counts_.transforms;
 }
 
@@ -104,13 +115,18 @@ void BagReplay::takeFixed(const geometry_msgs::TransformStamped& transform, cons
     }
     return;
   }
-  if (const auto problem = buffer_.insert(transform, message.sender, true)) {
-    note(transform, message.sender, *problem);
-    return;
-  }
+  if (!insert(transform, message.sender, true)) return;
   fixed_.emplace(frame, transform);
   momentAt(message.time, message.time);
   ++counts_.transforms;
+}
+
+// False when it is refused.
+bool BagReplay::insert(const geometry_msgs::TransformStamped& transform, const std::string& sender,
+                       bool fixed) {
+  const auto problem = buffer_.insert(transform, sender, fixed);
+  if (problem) note(transform, sender, *problem);
+  return !problem;
 }
 
 BagReplay::Moment& BagReplay::momentAt(ros::Time stamp, ros::Time recorded) {
@@ -148,18 +164,20 @@ void BagReplay::answerWhatIsReady(bool is_end) {
 }
 
 void BagReplay::answer(ros::Time stamp, const Moment& moment) {
-  for (const FixedChange& change : moment.changes) {
-    if (const auto problem = buffer_.insert(change.transform, change.sender, true)) {
-      note(change.transform, change.sender, *problem);
-    } else {
-      fixed_[withoutLeadingSlash(change.transform.child_frame_id)] = change.transform;
-      ++counts_.transforms;
-    }
+  for (const Held& change : moment.changes) {
+    if (!insert(change.transform, change.sender, true)) continue;
+    fixed_[withoutLeadingSlash(change.transform.child_frame_id)] = change.transform;
+    ++counts_.transforms;
+  }
+  for (const std::string& frame : moment.gaps_end) {
+    for (const Held& held : held_[frame]) insert(held.transform, held.sender, false);
+    held_.erase(frame);
   }
   ++counts_.stamps;
   std::fill(depends_.begin(), depends_.end(), kNotLookedUp);
   cycle_.run([&](std::size_t, const TrackedPair& pair) { return demandOf(pair, moment); }, stamp);
   if (isStopped()) return;
+  was_beyond_ = was_beyond_ || (options_.patterns.empty() && cycle_.others().beyond > 0);
   for (const auto& pair : cycle_.pairs()) {
     if (pair->demand().due) report(*pair, moment);
   }
@@ -221,7 +239,8 @@ void BagReplay::report(const PublishedPair& pair, const Moment& moment) {
 }
 
 bool BagReplay::hasAnswer() const {
-  return std::any_of(rows_.begin(), rows_.end(), [](const auto& row) { return row.second.has_answer; });
+  return was_beyond_ ||
+         std::any_of(rows_.begin(), rows_.end(), [](const auto& row) { return row.second.has_answer; });
 }
 
 std::map<std::string, std::string> BagReplay::unanswered() const {

@@ -62,23 +62,24 @@ class BagReplay {
   void finish();
 
   const ReplayCounts& counts() const { return counts_; }
-  /// Returns whether a pair has a distance, or is proven beyond its cutoff.
+  /// Returns whether a pair had a distance, or was proven beyond its cutoff, also one without rows.
   bool hasAnswer() const;
   /// Returns the pairs that have rows and not one answer, with the reason of the last.
   std::map<std::string, std::string> unanswered() const;
   const TransformBuffer& transforms() const { return buffer_; }
 
  private:
-  struct FixedChange {
+  struct Held {
     geometry_msgs::TransformStamped transform;
     std::string sender;
   };
   using Frames = std::unordered_set<std::string>;
-  /// What happens at one stamp.
+  /// Holds what happens at one stamp.
   struct Moment {
     ros::Time recorded;
-    Frames frames;                     ///< that have a transform of it
-    std::vector<FixedChange> changes;  ///< of static transforms, to be made first
+    Frames frames;              ///< that have a transform of it
+    std::vector<Held> changes;  ///< of static transforms, to be made first
+    Frames gaps_end;            ///< of these frames, whose transforms are held until then
   };
   /// The last row of a pair.
   struct Row {
@@ -92,6 +93,7 @@ class BagReplay {
   };
   void takeTransform(const geometry_msgs::TransformStamped& transform, const BagMessage& message);
   void takeFixed(const geometry_msgs::TransformStamped& transform, const BagMessage& message);
+  bool insert(const geometry_msgs::TransformStamped& transform, const std::string& sender, bool fixed);
   Moment& momentAt(ros::Time stamp, ros::Time recorded);
   void note(const geometry_msgs::TransformStamped& transform, const std::string& sender,
             const TransformProblem& problem);
@@ -111,9 +113,13 @@ class BagReplay {
   std::map<ros::Time, Moment> waiting_;
   std::map<ros::Time, Frames> answered_;  ///< as far back as the buffer takes transforms
   ros::Time newest_;                      ///< stamp of a moving transform
+  std::unordered_map<std::string, ros::Time> newest_of_frame_;
+  /// Transforms behind a gap longer than the time after which they are stale: it is not interpolated.
+  std::unordered_map<std::string, std::vector<Held>> held_;
   std::unordered_map<std::string, geometry_msgs::TransformStamped> fixed_;
   std::unordered_map<std::string, Row> rows_;
   std::vector<char> depends_;  ///< of each body on the moment's frames; 2: not looked up yet
+  bool was_beyond_ = false;    ///< a pair by rule that is not near
   ReplayCounts counts_;
 };
 

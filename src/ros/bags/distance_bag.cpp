@@ -46,7 +46,7 @@ std::atomic<bool> interrupted{false};
 void endOnInterrupt() {
   struct sigaction action {};
   action.sa_handler = [](int) { interrupted = true; };
-  action.sa_flags = static_cast<int>(SA_RESETHAND);
+  action.sa_flags = static_cast<int>(SA_RESETHAND) | SA_RESTART;
   for (const int signal : {SIGINT, SIGTERM}) sigaction(signal, &action, nullptr);
 }
 
@@ -187,6 +187,7 @@ void printProblems(const BagReplay& replay, const Scene& scene, const std::strin
   if (counts.refused > counts.reasons.size()) {
     std::cerr << "warning: " << counts.refused << " transforms were refused in all\n";
   }
+  if (counts.rows == 0) std::cerr << "warning: no pair comes within its cutoff\n";
   const std::map<std::string, std::string> unanswered = replay.unanswered();
   std::size_t listed = 0;
   for (const auto& [name, problem] : unanswered) {
