@@ -15,6 +15,7 @@ namespace concave_distance {
 namespace {
 
 constexpr char kNotLookedUp = 2;
+constexpr double kAnyTime = 1e9;  // s ahead of its clock that the buffer takes: they were checked before
 
 CycleOptions withAllTimes(CycleOptions options) {
   options.most_times = std::numeric_limits<std::size_t>::max();
@@ -55,7 +56,7 @@ BagReplay::BagReplay(Scene scene, ReplayOptions options, Sink sink)
     : options_(std::move(options)),
       lag_(std::min(options_.cycle.stale_after, 0.5 * options_.limits.cache)),
       sink_(std::move(sink)),
-      buffer_(options_.limits, [this] { return now_; }),
+      buffer_({options_.limits.cache, kAnyTime}, [this] { return buffer_now_; }),
       cycle_(buffer_, withAllTimes(options_.cycle)),
       depends_(scene.bodies.size(), kNotLookedUp) {
   cycle_.setScene(withoutBudgets(std::move(scene)));
@@ -64,6 +65,7 @@ BagReplay::BagReplay(Scene scene, ReplayOptions options, Sink sink)
 void BagReplay::take(const BagMessage& message) {
   ++counts_.messages;
   now_ = message.time;
+  if (buffer_now_.isZero()) buffer_now_ = now_;
   if (!message.problem.empty()) {
     ++counts_.refused;
     if (counts_.reasons.size() < kMostReasons) {
@@ -82,27 +84,30 @@ void BagReplay::takeTransform(const geometry_msgs::TransformStamped& transform, 
     takeFixed(transform, message);
     return;
   }
-  const ros::Time stamp = transform.header.stamp;
-  const std::string frame = withoutLeadingSlash(transform.child_frame_id);
-  const auto last = newest_of_frame_.find(frame);
-  const bool ends_gap =
-      last != newest_of_frame_.end() && secondsBetween(last->second, stamp) > options_.cycle.stale_after;
-  if (ends_gap || held_.count(frame) != 0) {
-    if (const auto problem = findTransformProblem(transform, false, now_, options_.limits)) {
-      note(transform, message.sender, *problem);
-      return;
-    }
-    if (held_.count(frame) == 0) momentAt(stamp, message.time).gaps_end.insert(frame);
-    held_[frame].push_back({transform, message.sender});
-  } else if (!insert(transform, message.sender, false)) {
+  geometry_msgs::TransformStamped named = transform;
+  named.header.frame_id = withoutLeadingSlash(transform.header.frame_id);
+  named.child_frame_id = withoutLeadingSlash(transform.child_frame_id);
+  const ros::Time stamp = named.header.stamp;
+  const std::string frame = named.child_frame_id;
+  auto problem = findTransformProblem(named, false, now_, options_.limits);
+  const auto track = tracks_.find(frame);
+  if (!problem && track != tracks_.end()) {
+    problem = findOrderProblem(stamp, track->second.newest_of_bag, track->second.sender, options_.limits);
+  }
+  if (problem) {
+    note(transform, message.sender, *problem);
     return;
   }
   const auto answered = answered_.find(stamp);
   // tf keeps the first of a stamp.
   if (answered != answered_.end() && answered->second.count(frame) != 0) return;
   newest_ = std::max(newest_, stamp);
-  newest_of_frame_[frame] = std::max(newest_of_frame_[frame], stamp);
-  if (momentAt(stamp, message.time).frames.insert(frame).second) ++counts_.transforms;
+  if (!momentAt(stamp, message.time).frames.insert(frame).second) return;
+  Track& found = tracks_[frame];
+  found.waiting.emplace(stamp, Held{std::move(named), message.sender});
+  if (stamp < found.newest_of_bag) return;
+  found.newest_of_bag = stamp;
+  found.sender = message.sender;
 }
 
 void BagReplay::takeFixed(const geometry_msgs::TransformStamped& transform, const BagMessage& message) {
@@ -163,16 +168,14 @@ void BagReplay::answerWhatIsReady(bool is_end) {
   }
 }
 
-void BagReplay::answer(ros::Time stamp, const Moment& moment) {
+void BagReplay::answer(ros::Time stamp, Moment& moment) {
+  buffer_now_ = std::max(buffer_now_, moment.recorded);
   for (const Held& change : moment.changes) {
     if (!insert(change.transform, change.sender, true)) continue;
     fixed_[withoutLeadingSlash(change.transform.child_frame_id)] = change.transform;
     ++counts_.transforms;
   }
-  for (const std::string& frame : moment.gaps_end) {
-    for (const Held& held : held_[frame]) insert(held.transform, held.sender, false);
-    held_.erase(frame);
-  }
+  fillBuffer(stamp, moment);
   ++counts_.stamps;
   std::fill(depends_.begin(), depends_.end(), kNotLookedUp);
   cycle_.run([&](std::size_t, const TrackedPair& pair) { return demandOf(pair, moment); }, stamp);
@@ -181,6 +184,30 @@ void BagReplay::answer(ros::Time stamp, const Moment& moment) {
   for (const auto& pair : cycle_.pairs()) {
     if (pair->demand().due) report(*pair, moment);
   }
+}
+
+// A frame without a transform of this stamp gets its next one, unless the gap is one in which it is stale.
+void BagReplay::fillBuffer(ros::Time stamp, Moment& moment) {
+  for (auto& [frame, track] : tracks_) {
+    auto& waiting = track.waiting;
+    while (!waiting.empty() && waiting.begin()->first <= stamp) {
+      const bool is_of_moment = waiting.begin()->first == stamp;
+      if (!insertNext(track) && is_of_moment) moment.frames.erase(frame);
+    }
+    if (waiting.empty() || track.newest.isZero() || track.newest >= stamp) continue;
+    if (secondsBetween(track.newest, waiting.begin()->first) <= options_.cycle.stale_after) insertNext(track);
+  }
+}
+
+// False when it is refused.
+bool BagReplay::insertNext(Track& track) {
+  const ros::Time stamp = track.waiting.begin()->first;
+  const Held held = std::move(track.waiting.begin()->second);
+  track.waiting.erase(track.waiting.begin());
+  if (!insert(held.transform, held.sender, false)) return false;
+  track.newest = std::max(track.newest, stamp);
+  ++counts_.transforms;
+  return true;
 }
 
 PairDemand BagReplay::demandOf(const TrackedPair& pair, const Moment& moment) {

@@ -79,7 +79,14 @@ class BagReplay {
     ros::Time recorded;
     Frames frames;              ///< that have a transform of it
     std::vector<Held> changes;  ///< of static transforms, to be made first
-    Frames gaps_end;            ///< of these frames, whose transforms are held until then
+  };
+  /// The moving transforms of one frame. The buffer gets one at its stamp; before that only where an earlier
+  /// stamp needs it to be interpolated, because tf rounds where it has newer ones.
+  struct Track {
+    std::map<ros::Time, Held> waiting;
+    ros::Time newest;         ///< that the buffer has; zero: none
+    ros::Time newest_of_bag;  ///< that has come
+    std::string sender;       ///< of that
   };
   /// The last row of a pair.
   struct Row {
@@ -98,7 +105,9 @@ class BagReplay {
   void note(const geometry_msgs::TransformStamped& transform, const std::string& sender,
             const TransformProblem& problem);
   void answerWhatIsReady(bool is_end);
-  void answer(ros::Time stamp, const Moment& moment);
+  void answer(ros::Time stamp, Moment& moment);
+  void fillBuffer(ros::Time stamp, Moment& moment);
+  bool insertNext(Track& track);
   PairDemand demandOf(const TrackedPair& pair, const Moment& moment);
   void report(const PublishedPair& pair, const Moment& moment);
   Row& rowOf(const std::string& pair);
@@ -107,15 +116,14 @@ class BagReplay {
   const ReplayOptions options_;
   const double lag_;  ///< s
   const Sink sink_;
-  ros::Time now_;
+  ros::Time now_;         ///< of the last message
+  ros::Time buffer_now_;  ///< the buffer's clock: when what it is given was recorded
   TransformBuffer buffer_;
   DistanceCycle cycle_;
+  std::map<std::string, Track> tracks_;  ///< by frame
   std::map<ros::Time, Moment> waiting_;
   std::map<ros::Time, Frames> answered_;  ///< as far back as the buffer takes transforms
   ros::Time newest_;                      ///< stamp of a moving transform
-  std::unordered_map<std::string, ros::Time> newest_of_frame_;
-  /// Transforms behind a gap longer than the time after which they are stale: it is not interpolated.
-  std::unordered_map<std::string, std::vector<Held>> held_;
   std::unordered_map<std::string, geometry_msgs::TransformStamped> fixed_;
   std::unordered_map<std::string, Row> rows_;
   std::vector<char> depends_;  ///< of each body on the moment's frames; 2: not looked up yet

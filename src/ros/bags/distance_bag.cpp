@@ -8,36 +8,28 @@
 #include <filesystem>
 #include <iostream>
 #include <map>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "bag_options.h"
 #include "bag_progress.h"
 #include "bag_replay.h"
 #include "bag_report.h"
-#include "bag_transforms.h"
 #include "base/number_text.h"
-#include "base/output_file.h"
 #include "base/run_tool.h"
 #include "concave_distance/base/error.h"
-#include "kinematics/frame_name.h"
-#include "ros/node/node_parameter_table.h"
 #include "ros/node/scene_loader.h"
 #include "ros/tf/frame_report.h"
 #include "ros/time_difference.h"
-#include "scene/name_pattern.h"
-#include "scene/pair_parameters.h"
 #include "tools/description_option.h"
 #include "tools/option_names.h"
-#include "tools/parameter_options.h"
 
 namespace concave_distance {
 namespace {
 
 constexpr int kInterrupted = 130;  // as a shell has it for Ctrl-C
 constexpr std::size_t kMostListed = 10;
-constexpr const char* kUsualDescription = "robot_description";
 constexpr const char* kPlotProgram = "plot_distances.py";
 
 std::atomic<bool> interrupted{false};
@@ -50,69 +42,8 @@ void endOnInterrupt() {
   for (const int signal : {SIGINT, SIGTERM}) sigaction(signal, &action, nullptr);
 }
 
-struct Options {
-  BagSelection bags;
-  NodeParameters node;
-  std::string robot_description;
-  std::vector<std::string> descriptions;  ///< NAME=FILE
-  std::vector<std::string> pairs;         ///< patterns
-  std::string output;
-  std::string niches_output;
-  std::string plot;
-};
-
-void addSceneOptions(CLI::App& app, Options& options) {
-  app.add_option("--scene", options.node.scene_file, "scene file; without one, the robot alone")
-      ->type_name("FILE");
-  app.add_option("--robot-description", options.robot_description,
-                 "URDF of the parameter robot_description: of the scene's robot, or of the robot alone")
-      ->type_name("FILE");
-  app.add_option("--description", options.descriptions,
-                 "URDF or SRDF of another parameter that the scene file names; once for each")
-      ->type_name("NAME=FILE");
-  app.add_option("--mesh-search-path", options.node.mesh_search_folders,
-                 "folder to search for meshes that are not found; once for each")
-      ->type_name("DIR");
-  app.add_option("--cache", options.node.cache,
-                 "folder that keeps what was prepared of the meshes, or off "
-                 "($XDG_CACHE_HOME/concave_distance, ~/.cache/concave_distance)")
-      ->type_name("DIR|off");
-  for (const char* parameter : {"reference_frame", "geometry", "skip_overlapping_pairs", "stale_after",
-                                "tf_cache", "tf_future_tolerance", "threads"}) {
-    tools::addParameter(app, nodeParameterTable(), parameter, options.node);
-  }
-  for (const Parameter<PairSettings>& parameter : pairParameters()) {
-    if (parameter.info.is_expert || parameter.info.name == "time_budget") continue;
-    tools::addParameter(app, parameter, options.node.pair);
-  }
-}
-
-void addOptions(CLI::App& app, Options& options) {
-  app.add_option("--bag", options.bags.paths, "bag; several are played as one, as by rosbag play")
-      ->required()
-      ->type_name("FILE");
-  app.add_option("--start", options.bags.start, "seconds after the begin of the bags")->type_name("S");
-  app.add_option("--duration", options.bags.duration, "seconds from there (to the end)")->type_name("S");
-  app.add_option("--tf-topic", options.bags.moving_topics,
-                 "topic of transforms that move; once for each (/tf)")
-      ->type_name("NAME");
-  app.add_option("--tf-static-topic", options.bags.fixed_topics,
-                 "topic of transforms that stand; once for each (/tf_static)")
-      ->type_name("NAME");
-  addSceneOptions(app, options);
-  app.add_option("--pairs", options.pairs,
-                 "only pairs of this name or pattern, as 'gripper/*'; once for each")
-      ->type_name("PATTERN");
-  app.add_option("--output", options.output, BagReport::kColumns)->required()->type_name("FILE");
-  app.add_option("--niches-output", options.niches_output,
-                 std::string(BagReport::kNicheColumns) + "; without it no niches are computed")
-      ->type_name("FILE");
-  app.add_option("--plot", options.plot, "picture of the distances over time (.png, .pdf, .svg; matplotlib)")
-      ->type_name("FILE");
-}
-
 /// Texts by the names of their parameters, and their folders as places to search for meshes.
-std::map<std::string, std::string> readDescriptions(Options& options) {
+std::map<std::string, std::string> readDescriptions(BagOptions& options) {
   std::map<std::string, std::string> texts;
   const auto read = [&](const std::string& name, const std::string& path) {
     texts[name] = tools::readDescription(path);
@@ -126,7 +57,7 @@ std::map<std::string, std::string> readDescriptions(Options& options) {
   return texts;
 }
 
-Scene load(Options& options) {
+Scene load(BagOptions& options) {
   SceneRequest request;
   request.descriptions = readDescriptions(options);
   if (options.node.scene_file.empty()) {
@@ -152,33 +83,6 @@ Scene load(Options& options) {
   return scene;
 }
 
-void requireFiles(const Options& options) {
-  std::vector<NamedPath> inputs = {{"--scene", options.node.scene_file},
-                                   {"--robot-description", options.robot_description}};
-  for (const std::string& path : options.bags.paths) inputs.push_back({"--bag", path});
-  for (const std::string& description : options.descriptions) {
-    inputs.push_back({"--description", tools::assignment("--description", description).second});
-  }
-  requireDistinctFiles(
-      inputs,
-      {{"--output", options.output}, {"--niches-output", options.niches_output}, {"--plot", options.plot}});
-}
-
-void checkOptions(const CLI::App& app, Options& options) {
-  options.bags.are_topics_given = app.count("--tf-topic") + app.count("--tf-static-topic") > 0;
-  if (app.count("--tf-topic") == 0 && app.count("--tf-static-topic") > 0) options.bags.moving_topics.clear();
-  if (app.count("--tf-static-topic") == 0 && app.count("--tf-topic") > 0) options.bags.fixed_topics.clear();
-  options.node.reference_frame = requireFrameName(options.node.reference_frame, "--reference-frame");
-  options.node.automatic_cutoff = options.node.scene_file.empty() && app.count("--cutoff") == 0;
-  for (const std::string& pattern : options.pairs) detail::requirePatternLength(pattern, "--pairs");
-  if (options.bags.duration && !(*options.bags.duration > 0.0)) {
-    throw Error("--duration", "it is " + numberText(*options.bags.duration) + " s", "give seconds above 0");
-  }
-  if (!(options.bags.start >= 0.0)) {
-    throw Error("--start", "it is " + numberText(options.bags.start) + " s", "give seconds from 0 on");
-  }
-}
-
 /// What a reader of the rows should know.
 void printProblems(const BagReplay& replay, const Scene& scene, const std::string& reference_frame) {
   const ReplayCounts& counts = replay.counts();
@@ -201,7 +105,7 @@ void printProblems(const BagReplay& replay, const Scene& scene, const std::strin
   if (!missing.empty()) std::cerr << "warning: at the end " << tools::inOptions(missing) << '\n';
 }
 
-[[noreturn]] void throwWithoutAnswer(const BagReplay& replay, const Scene& scene, const Options& options) {
+[[noreturn]] void throwWithoutAnswer(const BagReplay& replay, const Scene& scene, const BagOptions& options) {
   const std::string where = joinedText(options.bags.paths, ", ");
   const std::string missing =
       describeMissingFrames(*replay.transforms().current(), scene, options.node.reference_frame);
@@ -227,7 +131,7 @@ void requirePlotProgram(const std::string& plot) {
               "install the whole package; nothing was written");
 }
 
-void drawPlot(const Options& options) {
+void drawPlot(const BagOptions& options) {
   const std::string program = plotProgram().string();
   const pid_t child = fork();
   if (child == 0) {
@@ -245,7 +149,7 @@ void drawPlot(const Options& options) {
 }
 
 /// @return whether it was played to its end
-bool play(const Options& options, BagTransforms& bags, BagReplay& replay, BagReport& report) {
+bool play(const BagOptions& options, BagTransforms& bags, BagReplay& replay, BagReport& report) {
   BagProgress progress(bags.begin(), bags.end());
   ros::Time now = bags.begin();
   for (BagMessage message; !interrupted && bags.next(message);) {
@@ -268,8 +172,8 @@ bool play(const Options& options, BagTransforms& bags, BagReplay& replay, BagRep
   return !interrupted;
 }
 
-int replayBags(Options options) {
-  requireFiles(options);
+int replayBags(BagOptions options) {
+  requireDistinctFiles(options);
   requirePlotProgram(options.plot);
   BagTransforms bags(options.bags);
   const Scene scene = load(options);
@@ -291,7 +195,7 @@ int replayBags(Options options) {
 }
 
 int run(int argc, char** argv) {
-  Options options;
+  BagOptions options;
   CLI::App app(
       "Distances of a scene's pairs at every transform of a bag, as the node would give them. Metres, "
       "seconds; "
@@ -303,13 +207,13 @@ int run(int argc, char** argv) {
       "message.\n"
       "Exit status: 0 done, 1 a file is at fault, 2 the command line is, 130 interrupted: the files end "
       "there.");
-  addOptions(app, options);
+  addBagOptions(app, options);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : kWrongCommandLine;
   }
-  checkOptions(app, options);
+  checkBagOptions(app, options);
   endOnInterrupt();
   return replayBags(std::move(options));
 }

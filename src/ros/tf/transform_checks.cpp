@@ -89,4 +89,13 @@ std::optional<TransformProblem> findTransformProblem(const geometry_msgs::Transf
   return problem;
 }
 
+std::optional<TransformProblem> findOrderProblem(ros::Time stamp, ros::Time newest, const std::string& sender,
+                                                 const TransformLimits& limits) {
+  const double behind = secondsBetween(stamp, newest);
+  if (!(behind > limits.cache)) return std::nullopt;
+  return TransformProblem{
+      "its stamp is " + numberText(behind) + " s older than the newest one, from " + sender,
+      "stop one of the two publishers, or correct the clock of its machine"};
+}
+
 }  // namespace concave_distance

@@ -102,7 +102,6 @@ TEST_F(DistanceBag, AnswersTheStampsOfPublishersOfDifferentRates) {
     ++place;
   }
   EXPECT_EQ(rows().front().at("status"), "missing_transform") << "before b is known";
-  EXPECT_EQ(rows().front().at("message"), "the transforms of 'a' and 'b' have no time in common yet");
 }
 
 TEST_F(DistanceBag, AnswersTheStampsOfManyPublishersAlsoTheLastOnes) {
