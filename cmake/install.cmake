@@ -1,7 +1,7 @@
 # What is installed, in components (cmake --install build --component library):
 #   library   headers, concave_distance_core and concave_distance_loading, what find_package and pkg-config need
 #   tools     clearance_query, distance_query, mesh_tool, simulate, programs of the thesis where they are built, and the robots and scenes they are tried with
-#   node      (with ROS) the node, nodelet, messages, launch files
+#   node      (with ROS) the node, nodelet, distance_bag, messages, launch files
 # Each brings the licence. Files of the exported targets are for the devel space (or build tree) too.
 set(concave_distance_config_destination ${CONCAVE_DISTANCE_SHARE_DESTINATION}/cmake)
 
@@ -50,7 +50,7 @@ endforeach()
 install(DIRECTORY config meshes urdf DESTINATION ${CONCAVE_DISTANCE_SHARE_DESTINATION} COMPONENT tools)
 if(CONCAVE_DISTANCE_WITH_ROS)
   install(DIRECTORY launch DESTINATION ${CONCAVE_DISTANCE_SHARE_DESTINATION} COMPONENT node)
-  catkin_install_python(PROGRAMS scripts/follow_rows.py scripts/move_crowd.py scripts/pick_parts.py scripts/show_distances.py
+  catkin_install_python(PROGRAMS scripts/follow_rows.py scripts/move_crowd.py scripts/pick_parts.py scripts/plot_distances.py scripts/show_distances.py
     scripts/simulate_camera.py scripts/view_robot.py src/ros/bridges/cob_bridge.py src/ros/bridges/moveit_bridge.py
     DESTINATION ${CONCAVE_DISTANCE_BIN_DESTINATION})
   install(FILES scripts/row_program.py DESTINATION ${CONCAVE_DISTANCE_BIN_DESTINATION} COMPONENT node)

@@ -4,7 +4,7 @@ if(CONCAVE_DISTANCE_WITH_ROS AND PROJECT_BINARY_DIR STREQUAL "${PROJECT_SOURCE_D
   set(rosrun_links ${PROJECT_SOURCE_DIR}/.rosrun)
   file(REMOVE_RECURSE ${rosrun_links})
   file(MAKE_DIRECTORY ${rosrun_links})
-  foreach(program IN ITEMS clearance_query distance_query evaluate mesh_tool simulate thesis_tool
+  foreach(program IN ITEMS clearance_query distance_bag distance_query evaluate mesh_tool simulate thesis_tool
       distance_node simulation_node joint_player marker_mover pose_player robot_mover velocity_guard)
     file(CREATE_LINK ../build/devel/lib/concave_distance/${program} ${rosrun_links}/${program} SYMBOLIC RESULT ignored)
   endforeach()

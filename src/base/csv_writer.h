@@ -43,6 +43,7 @@ class CsvFile {
   CsvFile(const std::string& path, const std::string& header);
 
   CsvWriter& cells() { return cells_; }
+  void check() { file_.check(); }        ///< as OutputFile::check
   void complete() { file_.complete(); }  ///< as OutputFile::complete
   void finish() { file_.finish(); }      ///< as OutputFile::finish
 

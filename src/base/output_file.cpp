@@ -90,6 +90,10 @@ OutputFile::~OutputFile() {
 
 void OutputFile::complete() {
   if (stream_.is_open()) stream_.close();
+  check();
+}
+
+void OutputFile::check() const {
   if (!stream_) throw Error(path_, "not everything could be written", "check the space on the device");
 }
 

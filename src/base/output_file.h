@@ -19,6 +19,8 @@ class OutputFile {
 
   /// Writes in the classic locale, numbers with 17 digits.
   std::ostream& stream() { return stream_; }
+  /// @throws Error when something could not be written so far; for long runs
+  void check() const;
   /// Writes buffered data; with several files, call it for each before the first finish().
   /// @throws Error when something could not be written
   void complete();

@@ -2,9 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
 #include <iostream>
-#include <iterator>
 #include <memory>
 #include <optional>
 #include <string>
@@ -19,6 +17,7 @@
 #include "concave_distance/base/error.h"
 #include "concave_distance/kinematics/clearance.h"
 #include "concave_distance/loading/load_scene.h"
+#include "description_option.h"
 
 namespace concave_distance::tools {
 namespace {
@@ -39,30 +38,13 @@ struct ClearanceQueryOptions {
   bool shows_progress = false;
 };
 
-/// Splits NAME=VALUE. @throws Error naming the option
-std::pair<std::string, std::string> assignment(const std::string& option, const std::string& text) {
-  const std::size_t at = text.find('=');
-  if (at == std::string::npos || at == 0 || at + 1 == text.size()) {
-    throw Error(option, "it is '" + text + "'", "write a name, = and what it is");
-  }
-  return {text.substr(0, at), text.substr(at + 1)};
-}
-
-std::string readText(const std::string& path) {
-  requireReadableFile(path);
-  std::ifstream file(path);
-  std::string text{std::istreambuf_iterator<char>(file), {}};
-  if (!file || text.empty()) throw Error(path, "it cannot be read, or is empty", "name a URDF file");
-  return text;
-}
-
 Scene load(const ClearanceQueryOptions& options) {
   SceneLoadOptions load_options;
   load_options.package_locator = packagePathFromEnvironment;
   load_options.cache = openPreparationCache(options.cache);
   for (const std::string& description : options.descriptions) {
     const auto [name, path] = assignment("--description", description);
-    load_options.descriptions[name] = readText(path);
+    load_options.descriptions[name] = readDescription(path);
     load_options.mesh_search_path.push_back(path);
   }
   Scene scene = loadSceneFile(options.scene, load_options);

@@ -6,14 +6,9 @@
 #include <utility>
 
 #include "base/parameter.h"
+#include "option_names.h"
 
 namespace concave_distance::tools {
-
-/// `--time-budget` of `time_budget`.
-inline std::string optionName(std::string parameter) {
-  std::replace(parameter.begin(), parameter.end(), '_', '-');
-  return "--" + parameter;
-}
 
 /// Adds the parameter as an option that sets it. @param settings outlives `app`; its value is the default
 /// @param name of the option, where it is not the parameter's

@@ -1,31 +1,9 @@
 #include "query_report.h"
 
+#include "niche_words.h"
+
 namespace concave_distance::tools {
 namespace {
-
-const char* kindName(NicheKind kind) {
-  switch (kind) {
-    case NicheKind::Point:
-      return "point";
-    case NicheKind::Segment:
-      return "segment";
-    case NicheKind::Patch:
-      return "patch";
-  }
-  return "";
-}
-
-const char* outwardName(Outwardness outward) {
-  switch (outward) {
-    case Outwardness::Outward:
-      return "outward";
-    case Outwardness::ThroughMaterial:
-      return "through_material";
-    case Outwardness::Unknown:
-      return "unknown";
-  }
-  return "";
-}
 
 std::string columnsOfMargins(bool with_margins) {
   return with_margins ? ",signed_distance" : "";

@@ -130,6 +130,7 @@ const std::vector<std::string>& foldersFromTheGround() {
                                                    "ros/services",
                                                    "ros/clouds",
                                                    "ros/node",
+                                                   "ros/bags",
                                                    "ros/guard",
                                                    "ros/demo"};
   return folders;

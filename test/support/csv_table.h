@@ -10,19 +10,22 @@
 
 #include "support/temporary_folder.h"
 
-/// The tables that distance_query writes.
+/// The tables that the tools write.
 namespace concave_distance::test {
 
 /// Cells by the names of their columns.
 using Row = std::map<std::string, std::string>;
 
-/// A table by its header; every row has as many cells.
+/// A table by its header; every row has as many cells. Quotes are left out.
 inline std::vector<Row> readTable(const std::string& path) {
   std::istringstream stream(contentOf(path));
   const auto cells_of = [](const std::string& line) {
     std::vector<std::string> cells(1);
+    bool is_quoted = false;
     for (const char c : line) {
-      if (c == ',') {
+      if (c == '"') {
+        is_quoted = !is_quoted;
+      } else if (c == ',' && !is_quoted) {
         cells.emplace_back();
       } else {
         cells.back() += c;

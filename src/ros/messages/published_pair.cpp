@@ -22,4 +22,14 @@ PublishedPair::PublishedPair(std::shared_ptr<const TrackedPair> tracked_pair,
   heading.accuracy = tracked->settings.tracker.accuracy;
 }
 
+PairNiches toNiches(const PublishedPair& pair) {
+  if (pair.tracked->solved()) return toNiches(pair.heading, pair.tracked->solution);
+  PairNiches message = emptyNiches(pair.heading, pair.status);
+  if (pair.tracked->box_bound) {
+    message.nearest.has_lower_bound = 1;
+    message.nearest.lower_bound = *pair.tracked->box_bound;
+  }
+  return message;
+}
+
 }  // namespace concave_distance

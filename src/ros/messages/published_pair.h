@@ -1,5 +1,6 @@
 #pragma once
 
+#include <concave_distance/PairNiches.h>
 #include <concave_distance/PairStatus.h>
 
 #include <memory>
@@ -23,6 +24,9 @@ struct PublishedPair {
 
   const PairDemand& demand() const { return tracked->demand; }
 };
+
+/// Returns what the node says of the pair: its answer, or why there is none.
+PairNiches toNiches(const PublishedPair& pair);
 
 /// In the order of SceneTracker::pairs(): that of scene.pairs, then near pairs by rule.
 using PublishedPairs = std::vector<std::unique_ptr<PublishedPair>>;

@@ -27,7 +27,7 @@ DistanceCycle::DistanceCycle(const TransformBuffer& transforms, CycleOptions opt
     : transforms_(transforms),
       options_(std::move(options)),
       tracker_({options_.threads, options_.stop, options_.prepares_in_background}),
-      frames_(std::make_unique<FramePoses>()) {
+      frames_(std::make_unique<FramePoses>(options_.most_times)) {
   frames_->setFrames(options_.reference_frame, {}, ros::Time());
 }
 
@@ -48,7 +48,7 @@ void DistanceCycle::setScene(const Scene& scene, bool settings_changed) {
   }
   std::unique_ptr<FramePoses> frames;
   if (!frames_->hasFrames(options_.reference_frame, body_frames)) {
-    frames = std::make_unique<FramePoses>();
+    frames = std::make_unique<FramePoses>(options_.most_times);
     frames->setFrames(options_.reference_frame, body_frames, frames_->epoch());
   }
   retired_.reserve(retired_.size() + pairs_.size());

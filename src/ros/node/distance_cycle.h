@@ -21,6 +21,7 @@ struct CycleOptions {
   std::uint32_t threads = 0;                ///< that solve pairs; 0: one per core, 1: only the caller's
   const std::atomic<bool>* stop = nullptr;  ///< set: a cycle ends without solving the pairs that are left
   bool prepares_in_background = false;      ///< as SceneTrackerOptions
+  std::size_t most_times = FramePoses::kMostTimes;  ///< as FramePoses
 };
 
 /// Tracks a scene at the poses that tf2 knows. Knows the transforms but no topic. One thread at

@@ -77,6 +77,8 @@ std::size_t FramePoses::nodeOf(const tf2::BufferCore& buffer, const std::string&
   if (const auto found = node_of_.find(frame); found != node_of_.end()) return found->second;
   Node node;
   node.name = frame;
+  node.parent_from_node.reserve(kMostTimes);
+  node.is_known.reserve(kMostTimes);
   std::string parent;
   // Between two changes the tree may have a loop for a moment.
   if (length < kMostFramesUp && buffer._getParent(frame, ros::Time(0), parent)) {
@@ -137,7 +139,7 @@ void FramePoses::chooseTimes() {
     stamps_.clear();
     for (const ros::Time stamp : all_stamps_) {
       if (stamps_.empty() || secondsBetween(stamps_.back(), stamp) > length) stamps_.push_back(stamp);
-      if (stamps_.size() > kMostTimes) return false;
+      if (stamps_.size() > most_times_) return false;
     }
     return true;
   };
@@ -154,20 +156,22 @@ void FramePoses::chooseTimes() {
 // Where a group's later member is asked at the group's beginning, tf interpolates.
 void FramePoses::lookUpTimes(const tf2::BufferCore& buffer) {
   for (Node& node : nodes_) {
+    node.parent_from_node.resize(std::max<std::size_t>(1, stamps_.size()));
+    node.is_known.assign(node.parent_from_node.size(), 0);
     if (node.parent == kNone || node.edge.status != TransformStatus::Ok) continue;
     for (std::size_t time = 0; time < stamps_.size(); ++time) {
       const bool is_newest = node.edge.stamp.isZero() || node.edge.stamp == stamps_[time];
-      node.is_known[time] = is_newest || stamps_[time] < node.edge.stamp;
+      node.is_known[time] = static_cast<char>(is_newest || stamps_[time] < node.edge.stamp);
       if (is_newest) {
         node.parent_from_node[time] = node.edge.target_from_source;
       } else if (node.is_known[time]) {
         const FrameTransform seen = lookUpFrame(buffer, nodes_[node.parent].name, node.name, stamps_[time]);
-        node.is_known[time] = seen.status == TransformStatus::Ok;
+        node.is_known[time] = static_cast<char>(seen.status == TransformStatus::Ok);
         node.parent_from_node[time] = seen.target_from_source;
       }
     }
     if (stamps_.empty()) {
-      node.is_known[0] = node.edge.stamp.isZero();
+      node.is_known[0] = static_cast<char>(node.edge.stamp.isZero());
       node.parent_from_node[0] = node.edge.target_from_source;
     }
   }
@@ -211,10 +215,22 @@ bool FramePoses::isKnownAt(std::size_t node, std::size_t time) const {
   const std::size_t ancestor = ancestorOf(node, reference_node_);
   for (const std::size_t end : {node, reference_node_}) {
     for (std::size_t at = end; at != ancestor; at = nodes_[at].parent) {
-      if (!nodes_[at].is_known[time]) return false;
+      if (nodes_[at].is_known[time] == 0) return false;
     }
   }
   return true;
+}
+
+bool FramePoses::dependsOn(std::size_t body, const std::unordered_set<std::string>& frames) const {
+  const std::size_t node = node_of_frame_[place_of_body_[body]];
+  const std::size_t ancestor = ancestorOf(node, reference_node_);
+  if (ancestor == kNone) return false;
+  for (const std::size_t end : {node, reference_node_}) {
+    for (std::size_t at = end; at != ancestor; at = nodes_[at].parent) {
+      if (frames.count(nodes_[at].name) != 0) return true;
+    }
+  }
+  return false;
 }
 
 std::size_t FramePoses::ancestorOf(std::size_t a, std::size_t b) const {

@@ -4,12 +4,12 @@
 #include <tf2/buffer_core.h>
 
 #include <Eigen/Geometry>
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <string>
 #include <unordered_map>
+#include <unordered_set>
 #include <utility>
 #include <vector>
 
@@ -27,11 +27,13 @@ struct FramePlace {
 
 /// Finds the poses of many frames in a reference frame, each once a cycle: every edge of the tf tree between
 /// them is looked up at its newest time, and at the newest times of other frames before that. A pair of
-/// frames has the earlier of their two newest times, as from lookUpPair(). Where the frames have more than
-/// kMostTimes newest times, they are grouped, and each counts as the earliest of its group.
+/// frames has the earlier of their two newest times, as from lookUpPair(). Where the frames have more newest
+/// times than the constructor was given, they are grouped, and each counts as the earliest of its group.
 class FramePoses {
  public:
-  static constexpr std::size_t kMostTimes = 4;
+  static constexpr std::size_t kMostTimes = 4;  ///< in a cycle that has an end
+
+  explicit FramePoses(std::size_t most_times = kMostTimes) : most_times_(most_times) {}
 
   /// The bodies then are at the origins of their frames.
   /// @param frames of the bodies, in their order
@@ -56,6 +58,9 @@ class FramePoses {
     }
     return places_[place_of_body_[body]];
   }
+  /// Returns whether the place of a body in the reference frame depends on the transform of one of these
+  /// frames to its parent.
+  bool dependsOn(std::size_t body, const std::unordered_set<std::string>& frames) const;
   /// Returns the time at which two bodies are known together; zero: both are fixed.
   ros::Time commonStamp(std::size_t body_a, std::size_t body_b) const;
   /// Returns reference_from_body at the time that it has together with another body.
@@ -68,9 +73,9 @@ class FramePoses {
     std::string name;
     std::size_t parent = kNone;
     std::size_t depth = 0;
-    FrameTransform edge;  ///< at its newest time
-    std::array<Eigen::Isometry3d, kMostTimes> parent_from_node;
-    std::array<bool, kMostTimes> is_known{};
+    FrameTransform edge;                              ///< at its newest time
+    std::vector<Eigen::Isometry3d> parent_from_node;  ///< at stamps_, as the next
+    std::vector<char> is_known;
   };
   void buildTree(const tf2::BufferCore& buffer);
   std::size_t nodeOf(const tf2::BufferCore& buffer, const std::string& frame, std::size_t length);
@@ -85,6 +90,7 @@ class FramePoses {
   Eigen::Isometry3d between(std::size_t target, std::size_t source, std::size_t time) const;
   std::size_t timeOf(ros::Time stamp) const;
 
+  std::size_t most_times_;
   std::string reference_;
   std::vector<std::string> frames_;         ///< each once
   std::vector<std::size_t> place_of_body_;  ///< in frames_
@@ -96,7 +102,7 @@ class FramePoses {
   bool is_whole_ = false;           ///< every frame is connected with the reference frame
   std::vector<FramePlace> places_;  ///< of frames_
   std::vector<std::pair<std::size_t, FramePlace>> hidden_;  ///< bodies, few
-  std::vector<ros::Time> stamps_;                           ///< ascending, at most kMostTimes
+  std::vector<ros::Time> stamps_;                           ///< ascending, at most most_times_
   std::vector<ros::Time> all_stamps_;
   BodyPoses poses_;
   ros::Time epoch_;

@@ -93,11 +93,10 @@ std::optional<TransformProblem> TransformBuffer::admitFrame(const geometry_msgs:
     frames_[child].fixed = fixed;
     return std::nullopt;
   }
-  const double behind = secondsBetween(transform.header.stamp, frame->second.latest.header.stamp);
-  if (!fixed && !frame->second.fixed && behind > limits_.cache) {
-    return TransformProblem{
-        "its stamp is " + numberText(behind) + " s older than the newest one, from " + frame->second.sender,
-        "stop one of the two publishers, or correct the clock of its machine"};
+  if (!fixed && !frame->second.fixed) {
+    auto problem = findOrderProblem(transform.header.stamp, frame->second.latest.header.stamp,
+                                    frame->second.sender, limits_);
+    if (problem) return problem;
   }
   return changeKind(frame->second, fixed, now);
 }

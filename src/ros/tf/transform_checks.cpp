@@ -66,7 +66,7 @@ std::optional<TransformProblem> findStampProblem(ros::Time stamp, ros::Time now,
   const double ahead = secondsBetween(now, stamp);
   if (ahead > limits.future_tolerance) {
     return TransformProblem{
-        "its stamp is " + numberText(ahead) + " s ahead of this node's clock",
+        "its stamp is " + numberText(ahead) + " s ahead of the clock",
         "check that the clocks of the machines agree, or raise ~tf_future_tolerance, which is " +
             numberText(limits.future_tolerance) + " s"};
   }
@@ -87,6 +87,15 @@ std::optional<TransformProblem> findTransformProblem(const geometry_msgs::Transf
   if (!problem) problem = findPoseProblem(transform.transform);
   if (!problem && !fixed) problem = findStampProblem(transform.header.stamp, now, limits);
   return problem;
+}
+
+std::optional<TransformProblem> findOrderProblem(ros::Time stamp, ros::Time newest, const std::string& sender,
+                                                 const TransformLimits& limits) {
+  const double behind = secondsBetween(stamp, newest);
+  if (!(behind > limits.cache)) return std::nullopt;
+  return TransformProblem{
+      "its stamp is " + numberText(behind) + " s older than the newest one, from " + sender,
+      "stop one of the two publishers, or correct the clock of its machine"};
 }
 
 }  // namespace concave_distance

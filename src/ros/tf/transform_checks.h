@@ -27,4 +27,8 @@ std::optional<TransformProblem> findTransformProblem(const geometry_msgs::Transf
                                                      bool fixed, ros::Time now,
                                                      const TransformLimits& limits);
 
+/// Checks a moving transform against the newest one of its frame, and who sent that.
+std::optional<TransformProblem> findOrderProblem(ros::Time stamp, ros::Time newest, const std::string& sender,
+                                                 const TransformLimits& limits);
+
 }  // namespace concave_distance

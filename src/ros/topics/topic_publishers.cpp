@@ -22,18 +22,6 @@
 namespace concave_distance {
 namespace {
 
-PairNiches toMessage(const PublishedPair& pair) {
-  if (pair.tracked->solved()) {
-    return toNiches(pair.heading, pair.tracked->solution);
-  }
-  PairNiches message = emptyNiches(pair.heading, pair.status);
-  if (pair.tracked->box_bound) {
-    message.nearest.has_lower_bound = 1;
-    message.nearest.lower_bound = *pair.tracked->box_bound;
-  }
-  return message;
-}
-
 PairContactState toContactMessage(const PublishedPair& pair) {
   if (pair.tracked->solved() && pair.tracked->effects.contacts() != nullptr) {
     return toContacts(pair.heading, toDistance(pair.heading, pair.tracked->solution).status,
@@ -210,7 +198,7 @@ PublishReport TopicPublishers::publish(const ServedScene& served, const Publishe
       continue;
     }
     ++report.messages;
-    PairNiches message = toMessage(pair);
+    PairNiches message = toNiches(pair);
     if (own_distance) {
       own->distance.publish(boost::make_shared<PairDistance>(message.nearest));
     }
