@@ -6,6 +6,9 @@
 
 namespace concave_distance {
 
+// The documents say what a pair's cycles take.
+static_assert(sizeof(RecordedCycle) == 136);
+
 Eigen::Isometry3d RecordedCycle::pose() const {
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   pose.matrix().topRows<3>() = a_from_b;
