@@ -188,8 +188,9 @@ TEST_F(PairRecordTest, SaysWhatTheNodeAnsweredAndHowItIsSet) {
   EXPECT_EQ(live[1].at("status"), "beyond_cutoff");
   EXPECT_EQ(test::readTable(folder_.path("record/answers.csv"))[1].at("status"), "beyond_cutoff");
   const std::string facts = content("record.yaml");
-  for (const char* part : {"time_budget: 1e-6", "seed: 77", "interference: true", "cutoff: 0.9",
-                           "a: ", "epoch: \"1700000000.250000000\"", "warning_distance: 0.1", "compiler: "})
+  for (const char* part :
+       {"time_budget: 1e-6", "seed: 77", "interference: true", "cutoff: 0.9", "\na:\n  name: comb\n",
+        "epoch: \"1700000000.250000000\"", "warning_distance: 0.1", "compiler: "})
     EXPECT_TRUE(mentions(facts, part)) << part << " in " << facts;
 }
 
