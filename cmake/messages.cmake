@@ -40,6 +40,7 @@ set(CONCAVE_DISTANCE_SERVICES
   GetDistances.srv
   GetScene.srv
   ListBodies.srv
+  RecordPair.srv
   Reload.srv
   RemoveBody.srv
   ResetTracking.srv

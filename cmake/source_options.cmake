@@ -10,7 +10,7 @@ set_source_files_properties(
   ${PROJECT_SOURCE_DIR}/src/interference/working_frame.cpp
   PROPERTIES COMPILE_OPTIONS -ffp-contract=off SKIP_PRECOMPILE_HEADERS ON)
 
-set_source_files_properties(${PROJECT_SOURCE_DIR}/src/base/version.cpp
+set_source_files_properties(${PROJECT_SOURCE_DIR}/src/base/versions.cpp
   PROPERTIES COMPILE_DEFINITIONS CONCAVE_DISTANCE_VERSION="${PROJECT_VERSION}")
 set_source_files_properties(${PROJECT_SOURCE_DIR}/src/mesh/import/import_process.cpp PROPERTIES COMPILE_DEFINITIONS
   CONCAVE_DISTANCE_INSTALLED_WORKER="${CMAKE_INSTALL_PREFIX}/lib/concave_distance/mesh_import_worker")

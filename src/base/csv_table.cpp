@@ -38,11 +38,13 @@ double readNumber(std::string_view cell, const std::string& column, const std::s
   return *value;
 }
 
-void readHeader(std::string_view line, const std::string& header, const std::string& where, CsvTable& table) {
+void readHeader(std::string_view line, const std::string& header, const std::string& other_header,
+                const std::string& where, CsvTable& table) {
   std::vector<std::string_view> names;
   splitLine(line, names);
   table.columns.assign(names.begin(), names.end());
-  if (!header.empty() && joinedText(table.columns, ",") != header) {
+  const std::string seen = joinedText(table.columns, ",");
+  if (!header.empty() && seen != header && (other_header.empty() || seen != other_header)) {
     throw Error(where, "the header is '" + std::string(trimmed(line)) + "'",
                 "the first line has to be " + header);
   }
@@ -67,7 +69,7 @@ void requireReadableFile(const std::string& path) {
   throw Error(path, "it is not a regular file", "name a file, not a folder, a device or a pipe");
 }
 
-CsvTable readCsv(const std::string& path, const std::string& header) {
+CsvTable readCsv(const std::string& path, const std::string& header, const std::string& other_header) {
   requireReadableFile(path);
   std::ifstream stream(path);
   if (!stream) throw Error(path, "the file cannot be read", "check the path and its permissions");
@@ -79,7 +81,7 @@ CsvTable readCsv(const std::string& path, const std::string& header) {
     if (trimmed(text).empty()) continue;
     const std::string where = path + ":" + std::to_string(number);
     if (table.columns.empty()) {
-      readHeader(text, header, where, table);
+      readHeader(text, header, other_header, where, table);
       continue;
     }
     splitLine(text, cells);

@@ -22,8 +22,10 @@ void requireReadableFile(const std::string& path);
 
 /// Empty lines are passed over, spaces around a cell and a byte order mark too. Numbers need not be finite.
 /// @param header what the first line has to be, e.g. "t,x,y,z"; empty: any names
+/// @param other_header what it may be instead; empty: nothing
 /// @throws Error naming file and line: not a readable file, another header, a cell that is no number, a row
 ///         of another length
-CsvTable readCsv(const std::string& path, const std::string& header = "");
+CsvTable readCsv(const std::string& path, const std::string& header = "",
+                 const std::string& other_header = "");
 
 }  // namespace concave_distance

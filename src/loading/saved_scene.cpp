@@ -10,6 +10,7 @@
 #include "base/number_text.h"
 #include "concave_distance/base/error.h"
 #include "kinematics/wording.h"
+#include "mesh/import/obj_text.h"
 #include "mesh/surface/primitive_table.h"
 #include "robot_at_rest.h"
 #include "saved_rules.h"
@@ -22,19 +23,6 @@ namespace concave_distance::detail {
 namespace {
 
 constexpr std::size_t kMegabyte = 1'000'000;
-
-// Vertices and triangles in their order, numbers to the last bit.
-std::string objText(const TriangleSoup& soup) {
-  std::string text;
-  for (const Eigen::Vector3d& v : soup.vertices)
-    text += "v " + yamlNumber(v.x()) + " " + yamlNumber(v.y()) + " " + yamlNumber(v.z()) + "\n";
-  for (const auto& t : soup.triangles) {
-    text += "f";
-    for (const std::uint32_t corner : t) text += " " + std::to_string(std::uint64_t{corner} + 1);
-    text += "\n";
-  }
-  return text;
-}
 
 class SceneWriter {
  public:

@@ -1,4 +1,4 @@
-#include "base/version.h"
+#include "base/versions.h"
 #include "bindings.h"
 
 PYBIND11_MODULE(_concave_distance, module) {

@@ -13,7 +13,7 @@
 #include "base/number_text.h"
 #include "base/output_file.h"
 #include "base/run_tool.h"
-#include "base/version.h"
+#include "base/versions.h"
 #include "concave_distance/base/error.h"
 #include "concave_distance/kinematics/clearance.h"
 #include "concave_distance/loading/load_scene.h"
@@ -274,7 +274,7 @@ int run(int argc, char** argv) {
   app.footer(
       "An empty cell was not computed. Status: ok, penetrating, budget_exhausted, no_pairs.\n"
       "Exit status: 0 done, 1 a file is at fault, 2 the command line is.");
-  app.set_version_flag("--version", packageVersion());
+  app.set_version_flag("--version", versionsText());
   addOptions(app, options);
   try {
     app.parse(argc, argv);

@@ -12,7 +12,7 @@
 #include "base/output_file.h"
 #include "base/run_tool.h"
 #include "base/triangle_measures.h"
-#include "base/version.h"
+#include "base/versions.h"
 #include "concave_distance/mesh/import/export_mesh.h"
 #include "concave_distance/mesh/import/import_mesh.h"
 #include "concave_distance/mesh/repair/repair_mesh.h"
@@ -216,7 +216,7 @@ int run(int argc, char** argv) {
   CommandLine line;
   CLI::App app("Looks at meshes and prepares them. Lengths are metres.", "mesh_tool");
   app.footer("Exit status: 0 done, 1 the mesh or a file is at fault, 2 the command line is.");
-  app.set_version_flag("--version", packageVersion());
+  app.set_version_flag("--version", versionsText());
   app.require_subcommand(1);
   const std::vector<Command> commands = addCommands(app, line);
   try {

@@ -1,30 +1,13 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
-#include <optional>
 #include <string>
 
 #include "base/csv_writer.h"
-#include "concave_distance/tracking/pair_solution.h"
-#include "distance/bound/certificate.h"
+#include "loading/answer_lines.h"
 
 namespace concave_distance::tools {
-
-/// A line of out.csv; NaN and empty optionals are cells left empty: not computed.
-struct QueryAnswer {
-  double distance = std::numeric_limits<double>::quiet_NaN();     ///< metres
-  double lower_bound = std::numeric_limits<double>::quiet_NaN();  ///< metres
-  Eigen::Vector3d point_a_in_a = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
-  Eigen::Vector3d point_b_in_a = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
-  std::optional<std::size_t> niche_count;
-  std::string status;
-  std::optional<TrianglePair> meeting_triangles;
-  double time_us = std::numeric_limits<double>::quiet_NaN();          ///< of the query alone
-  double signed_distance = std::numeric_limits<double>::quiet_NaN();  ///< metres, less the margins
-};
 
 /// Writes out.csv, 17 digits, a line per query.
 class AnswerWriter : public CsvFile {
@@ -43,8 +26,7 @@ class NicheWriter : public CsvFile {
  public:
   /// The parameters are those of AnswerWriter.
   explicit NicheWriter(const std::string& path, bool with_margins = false);
-  /// @param number the niche's persistent id or its rank
-  /// @param described kind, extent, sides and prominence were computed: else their cells stay empty
+  /// The parameters are those of writeNiche().
   void write(std::size_t index, std::uint64_t number, const TrackedNiche& niche, bool described);
 
  private:

@@ -9,7 +9,7 @@
 
 #include "base/output_file.h"
 #include "base/run_tool.h"
-#include "base/version.h"
+#include "base/versions.h"
 #include "concave_distance/base/error.h"
 #include "concave_distance/loading/load_scene.h"
 #include "concave_distance/simulation/simulation.h"
@@ -192,7 +192,7 @@ int run(int argc, char** argv) {
       "Exit status: 0 done, 1 a file is at fault, 2 the command line is, 3 the simulation diverged, 4 the "
       "error "
       "of the energy balance is above energy_tolerance.");
-  app.set_version_flag("--version", packageVersion());
+  app.set_version_flag("--version", versionsText());
   addOptions(app, options);
   try {
     app.parse(argc, argv);

@@ -9,13 +9,14 @@
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <map>
 
+#include "base/output_file.h"
 #include "concave_distance/base/error.h"
 #include "concave_distance/mesh/import/export_mesh.h"
 #include "fuzz/niche_hunt_scene.h"
+#include "loading/query_poses.h"
 
 namespace concave_distance {
 namespace {
@@ -55,17 +56,12 @@ std::string writeScene(const test::NicheScene& scene, const std::string& folder,
   const std::string path = folder + "/" + name;
   exportMesh(scene.a, path + "_a.obj");
   exportMesh(scene.b, path + "_b.obj");
-  std::ofstream poses(path + "_poses.csv");
-  poses.precision(17);
-  poses << "t,x,y,z,qx,qy,qz,qw\n";
-  for (std::size_t i = 0; i < scene.poses.size(); ++i) {
-    poses << 0.01 * static_cast<double>(i);
-    const Eigen::Quaterniond turn(scene.poses[i].linear());
-    for (Eigen::Index axis = 0; axis < 3; ++axis) poses << ',' << scene.poses[i].translation()[axis];
-    for (Eigen::Index axis = 0; axis < 4; ++axis) poses << ',' << turn.coeffs()[axis];
-    poses << '\n';
-  }
-  if (!poses) throw Error(path, "the poses cannot be written", "check the folder and its permissions");
+  std::vector<TimedPose> poses;
+  for (std::size_t i = 0; i < scene.poses.size(); ++i)
+    poses.push_back({0.01 * static_cast<double>(i), scene.poses[i]});
+  OutputFile file(path + "_poses.csv");
+  file.stream() << matrixPosesText(poses);
+  file.finish();
   return path;
 }
 

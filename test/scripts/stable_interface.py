@@ -21,7 +21,7 @@ sys.path.insert(0, os.path.join(PACKAGE, "test", "scripts"))
 from public_names import public_names  # noqa: E402
 
 LIST = os.path.join(PACKAGE, "test", "scripts", "stable_interface.txt")
-TOOLS = ["clearance_query", "distance_query", "mesh_tool", "simulate"]
+TOOLS = ["clearance_query", "distance_bag", "distance_query", "mesh_tool", "simulate"]
 TABLES = ["parameters.md", "scene_file.md", "simulation_node.md", "velocity_guard.md"]
 
 
@@ -186,7 +186,7 @@ def version_faults(programs):
         yield "package.xml says version %s, the newest section of CHANGELOG.rst %s" % (version, newest)
     for tool in TOOLS:
         run = subprocess.run([os.path.join(programs, tool), "--version"], stdout=subprocess.PIPE, check=True)
-        if run.stdout.decode("utf-8").strip() != version:
+        if run.stdout.decode("utf-8").splitlines()[0] != "concave_distance " + version:
             yield "%s --version says %r, package.xml %s" % (tool, run.stdout, version)
     for library in ("core", "loading"):
         short = ".".join(version.split(".")[:2])

@@ -9,6 +9,7 @@
 #include "base/output_file.h"
 #include "concave_distance/base/error.h"
 #include "file_extension.h"
+#include "obj_text.h"
 
 namespace concave_distance {
 namespace {
@@ -52,15 +53,6 @@ void writeStl(const SurfaceMesh& mesh, std::ostream& stream, const std::string& 
   stream.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
 }
 
-void writeObj(const SurfaceMesh& mesh, std::ostream& stream) {
-  for (const Eigen::Vector3d& v : mesh.vertices()) {
-    stream << "v " << v.x() << ' ' << v.y() << ' ' << v.z() << '\n';
-  }
-  for (const TriangleNodes& t : mesh.triangles()) {
-    stream << "f " << t[0].value + 1 << ' ' << t[1].value + 1 << ' ' << t[2].value + 1 << '\n';
-  }
-}
-
 void writePly(const SurfaceMesh& mesh, std::ostream& stream) {
   stream << "ply\nformat ascii 1.0\nelement vertex " << mesh.vertexCount()
          << "\nproperty double x\nproperty double y\nproperty double z\nelement face " << mesh.triangleCount()
@@ -86,7 +78,7 @@ void exportMesh(const SurfaceMesh& mesh, const std::string& path) {
   if (extension == ".stl") {
     writeStl(mesh, stream, path);
   } else if (extension == ".obj") {
-    writeObj(mesh, stream);
+    stream << detail::objText(mesh);
   } else {
     writePly(mesh, stream);
   }

@@ -6,7 +6,7 @@
 #include "concave_distance/base/not_computed.h"
 #include "concave_distance/distance/niche_kind.h"
 #include "concave_distance/tracking/pair_solution.h"
-#include "tools/niche_words.h"
+#include "loading/answer_lines.h"
 #include "tools/option_names.h"
 
 namespace concave_distance {
@@ -107,8 +107,8 @@ void BagReport::writeNiches(const BagAnswer& answer) {
          << niche.id << niche.distance << toEigen(niche.point_a) << toEigen(niche.point_b)
          << toEigen(niche.normal) << valueOf(niche.has_closing_speed != 0, niche.closing_speed);
     if (is_described) {
-      line << tools::kindName(static_cast<NicheKind>(niche.kind)) << niche.extent
-           << tools::outwardName(static_cast<Outwardness>(niche.outwardness)) << (niche.visible != 0 ? 1 : 0)
+      line << kindName(static_cast<NicheKind>(niche.kind)) << niche.extent
+           << outwardName(static_cast<Outwardness>(niche.outwardness)) << (niche.visible != 0 ? 1 : 0)
            << valueOf(niche.has_prominence != 0, niche.prominence)
            << toString(static_cast<NicheOrigin>(niche.origin));
     } else {

@@ -18,6 +18,7 @@
 #include "bag_report.h"
 #include "base/number_text.h"
 #include "base/run_tool.h"
+#include "base/versions.h"
 #include "concave_distance/base/error.h"
 #include "ros/node/scene_loader.h"
 #include "ros/tf/frame_report.h"
@@ -201,6 +202,7 @@ int run(int argc, char** argv) {
       "seconds; "
       "points in the reference frame.",
       "distance_bag");
+  app.set_version_flag("--version", versionsText());
   app.footer(
       "An empty cell was not computed. Status: ok, tolerance, memory, penetrating, beyond_cutoff, "
       "missing_transform, stale_transform, invalid_pose, not_found; what has no distance says why in "

@@ -44,15 +44,17 @@ std::vector<std::string> splitPaths(const std::string& text) {
   return paths;
 }
 
-void readExperts(ParameterReader& reader, PairSettings& pair) {
+void readExperts(ParameterReader& reader, NodeParameters& parameters) {
+  PairSettings& pair = parameters.pair;
   ParameterReader experts = reader.group("expert");
+  experts.read(nodeParameterTable(), true, parameters);
   experts.read(pairParameters(), true, pair);
   for (const bool cold : {true, false}) {
     const std::string name = cold ? "cold" : "warm";
     ParameterReader genetic = experts.group(name);
-    GeneticParameters& parameters = cold ? pair.tracker.cold : pair.tracker.warm;
-    genetic.read(geneticParameters(), false, parameters);
-    parameters.validate("~expert/" + name);
+    GeneticParameters& search = cold ? pair.tracker.cold : pair.tracker.warm;
+    genetic.read(geneticParameters(), false, search);
+    search.validate("~expert/" + name);
     experts.adoptUnread(genetic, name + "/");
   }
   reader.adoptUnread(experts, "expert/");
@@ -122,7 +124,7 @@ NodeParameters parseNodeParameters(XmlRpc::XmlRpcValue values, std::vector<std::
   parameters.mesh_search_folders = splitPaths(parameters.mesh_search_path);
   parameters.automatic_cutoff = parameters.scene_file.empty() && !reader.has("cutoff");
   reader.read(pairParameters(), false, parameters.pair);
-  readExperts(reader, parameters.pair);
+  readExperts(reader, parameters);
   checkMarkers(parameters.marker);
   cycleBudget(parameters.cycle_budget, parameters.rate);
   ParameterReader limits = reader.group("limits");

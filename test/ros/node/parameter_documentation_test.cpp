@@ -32,6 +32,7 @@ TEST(ParameterDocumentation, HasTheNodesParameters) {
 
 TEST(ParameterDocumentation, HasTheSettingsForExperts) {
   expectTable("doc/expert_settings.md", "pair", tableRows(pairParameters(), true));
+  expectTable("doc/expert_settings.md", "node", tableRows(nodeParameterTable(), true));
   const TrackerParameters defaults;
   expectTable("doc/expert_settings.md", "cold",
               tableRows(geneticParameters(), false, "cold.", defaults.cold));
