@@ -31,7 +31,10 @@ Eigen::Isometry3d poseOfMatrix(const double* numbers) {
 }
 
 Eigen::Isometry3d poseOfQuaternion(const double* v) {
-  return poseOf(QueryPose{0.0, {v[0], v[1], v[2]}, {v[3], v[4], v[5], v[6]}}).value_or(noPose());
+  QueryPose pose;
+  pose.position = {v[0], v[1], v[2]};
+  pose.quaternion = {v[3], v[4], v[5], v[6]};
+  return poseOf(pose).value_or(noPose());
 }
 
 }  // namespace
