@@ -167,8 +167,12 @@ CloudReceiver::Made CloudReceiver::makeVoxels(const CloudReading& reading, const
   detail::PointFilter filter;
   const std::string& frame_of_points = reading.map ? reading.frame : frame_;
   std::vector<std::string> lost;
+  const ros::WallTime deadline = ros::WallTime::now() + ros::WallDuration(transform_timeout_);
   for (const std::size_t index : detail::bodiesLeftOut(scene, body, unknown)) {
     const SceneBody& left_out = scene.bodies[index];
+    // A camera may be faster than the robot's joints.
+    waitForFrames(transforms_, left_out.frame, frame_of_points, reading.stamp,
+                  (deadline - ros::WallTime::now()).toSec());
     const FrameTransform found =
         lookUpFrame(*transforms_.current(), left_out.frame, frame_of_points, reading.stamp);
     if (found.status != TransformStatus::Ok) {

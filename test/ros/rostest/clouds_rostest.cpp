@@ -204,6 +204,17 @@ TEST(Clouds, PointsOnTheMovingRobotDoNotCount) {
     cell.sensor.see(sight(x));
     EXPECT_TRUE(cell.waitForDistance("tip_seen", 4.0 - (x + 0.5))) << x;
   }
+  // No cloud is used before tf says where the robot was at its stamp.
+  cell.distances.clear();
+  std::size_t answered = 0;
+  ASSERT_TRUE(eventually([&] { return cell.distances.count() >= 50; }));
+  for (const Distances& message : cell.distances.all()) {
+    const PairDistance* found = cell.find(message, "tip_seen");
+    if (found == nullptr || found->has_distance == 0) continue;
+    ++answered;
+    EXPECT_NEAR(found->distance, 4.0 - 2.5, 1e-9);
+  }
+  EXPECT_GT(answered, 0U);
   // What is farther away than the padding of 5 cm is an obstacle.
   std::vector<Point> points = sight(2.0);
   points.push_back({2.75F, 0.05F, 0.05F});
