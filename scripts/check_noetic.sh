@@ -33,15 +33,17 @@ make_root() {
   if [ -f "$keyring" ]; then check=(--keyring "$keyring"); else say "no $keyring: Ubuntu's packages are not verified"; fi
   rm -rf "$root"
   mkdir -p "$folder"
-  debootstrap "${check[@]}" --variant=minbase --components=main,universe focal "$root" http://archive.ubuntu.com/ubuntu
+  debootstrap "${check[@]}" --variant=minbase --components=main,universe focal "$root"
 }
 
 # from_debian <suite> <packages ...>: unpacks them in the root folder.
 from_debian() {
-  local suite="$1" lists="$folder/debian/$1"
+  local suite="$1" lists="$folder/debian/$1" archive
   shift
   mkdir -p "$lists/lists/partial"
-  echo "deb http://deb.debian.org/debian $suite main" >"$lists/sources.list"
+  # shellcheck disable=SC2016 # apt-get fills it in
+  archive="$(apt-get indextargets --format '$(REPO_URI)' 'Origin: Debian' 'Component: main' | grep -v security | head -n 1)"
+  echo "deb $archive $suite main" >"$lists/sources.list"
   : >"$lists/status"
   local options=(-q -o "Dir::Etc::sourcelist=$lists/sources.list" -o Dir::Etc::sourceparts=- -o "Dir::State::lists=$lists/lists"
     -o "Dir::State::status=$lists/status" -o Dir::Cache::pkgcache= -o Dir::Cache::srcpkgcache= -o APT::Sandbox::User=root)

@@ -13,7 +13,7 @@ std::from_chars_result readCharacters(const char* first, const char* last, doubl
 
 namespace detail {
 
-/// The same by the C library in its own locale, for standard libraries that have no <charconv> for doubles
+/// Does it by the C library in its own locale, for standard libraries that have no <charconv> for doubles
 /// (that of GCC before 11).
 char* writeGeneralByC(char* first, char* last, double value, int digits);
 char* writeFixedByC(char* first, char* last, double value, int decimals);

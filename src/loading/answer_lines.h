@@ -39,7 +39,7 @@ QueryAnswer answerOf(const PairSolution& solution, bool with_niches);
 std::string answerColumns(bool with_margins);
 void writeAnswer(std::size_t index, const QueryAnswer& answer, bool with_margins, CsvWriter& line);
 
-/// The same of niches.csv.
+/// Returns the column names of niches.csv.
 std::string nicheColumns(bool with_margins);
 /// @param number the niche's persistent id or its rank
 /// @param described kind, extent, sides and prominence were computed: else their cells stay empty

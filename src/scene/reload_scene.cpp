@@ -151,7 +151,7 @@ class Reload {
     renumber(loaded_, before);
   }
 
-  // What a sensor sees goes on.
+  // A sensor goes on seeing.
   void keepClouds() {
     for (std::size_t i = 0; i < fresh_.bodies.size(); ++i) {
       const SceneBody* edited = bodyNamed(edited_, fresh_.bodies[i].name);

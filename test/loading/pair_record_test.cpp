@@ -140,7 +140,7 @@ TEST_F(PairRecordTest, IsReplayedToTheSameBits) {
   }
 }
 
-// What the recording holds is what a tracker of its own says of the bodies that were recorded.
+// A tracker of its own says of the recorded bodies what the recording holds.
 TEST_F(PairRecordTest, HoldsWhatATrackerAnswers) {
   for (const Case& one : cases()) {
     SCOPED_TRACE(one.name);

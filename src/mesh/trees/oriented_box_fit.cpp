@@ -91,8 +91,8 @@ Matrix3d planeOfLargest(const CornerRange& corners) {
   return axes.allFinite() ? axes : Matrix3d::Identity();
 }
 
-/// Whether a box has no thickness and as much area as its triangles: unless they overlap, no box around them
-/// has less surface.
+/// Returns whether a box has no thickness and as much area as its triangles: unless they overlap, no box
+/// around them has less surface.
 bool isFilled(const OrientedBox& box, const CornerRange& corners) {
   if (box.half.minCoeff() > 0.0) return false;
   constexpr double kRounding = 0x1.0p-40;

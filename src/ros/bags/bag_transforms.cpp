@@ -208,7 +208,7 @@ bool BagTransforms::next(BagMessage& message) {
     const rosbag::MessageInstance& found = *bags.place;
     message.time = bags.last = bags.is_before ? bags.begin : found.getTime();
     message.fixed = isOneOf(bags.selection.fixed_topics, found.getTopic());
-    // What no node has recorded has no sender.
+    // A message that a program wrote has no sender.
     message.sender = printable(found.getCallerId().empty() ? found.getTopic() : found.getCallerId());
     message.transforms.clear();
     bags.bytes.resize(found.size());

@@ -84,7 +84,7 @@ Scene load(BagOptions& options) {
   return scene;
 }
 
-/// What a reader of the rows should know.
+/// Prints what a reader of the rows should know.
 void printProblems(const BagReplay& replay, const Scene& scene, const std::string& reference_frame) {
   const ReplayCounts& counts = replay.counts();
   for (const auto& [name, reason] : counts.reasons)

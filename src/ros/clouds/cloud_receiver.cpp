@@ -236,7 +236,7 @@ void CloudReceiver::serve(const SceneBody& body, Made made, ros::Time stamp) {
   keeper_.edit([&](Scene& scene) {
     const std::optional<std::size_t> place = scene.findBody(name_);
     if (!place || !isOf(scene.bodies[*place])) throw Gone();
-    // What was compared with may have been replaced by a reload.
+    // A reload may have replaced the cells that were compared.
     if (is_same && scene.bodies[*place].cloud->cells != before.cells) throw Gone();
     detail::takeCloud(scene.bodies.edit(*place), state, mesh, made.frame_from_voxels);
   });

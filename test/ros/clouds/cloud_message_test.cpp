@@ -1,4 +1,4 @@
-// What is read of clouds and maps, and what is refused of them.
+// Clouds and maps are read as they were written, or refused.
 #include "ros/clouds/cloud_message.h"
 
 #include <gtest/gtest.h>
