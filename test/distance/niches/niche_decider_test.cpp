@@ -311,13 +311,14 @@ TEST(NicheDecider, MendABasinInLaterCyclesThoughEachIsCut) {
 
   int cycle = 0;
   std::uint32_t visited = 0;
-  // A busy machine may have made the time longer than it is.
-  for (int attempt = 0; attempt < 10 && cycle < 3; ++attempt) {
+  bool is_decided = false;
+  // A busy machine makes the time longer than it is, or leaves a cycle too little for a single step.
+  for (int attempt = 0; attempt < 10 && (cycle < 3 || !is_decided); ++attempt) {
     allowed /= 4.0;
     NicheDecider cut = begun();
-    bool is_decided = false;
+    is_decided = false;
     visited = 0;
-    for (cycle = 0; cycle < 2000 && !is_decided; ++cycle) {
+    for (cycle = 0; cycle < 500 && !is_decided; ++cycle) {
       candidates = candidatesAt(after);
       WorkLimit limit(WorkLimit::Clock::now(), allowed, std::numeric_limits<std::size_t>::max(), nullptr);
       cut.begin(after, candidates, {}, none);
@@ -329,9 +330,13 @@ TEST(NicheDecider, MendABasinInLaterCyclesThoughEachIsCut) {
       });
       if (limit.hasRefusedTime()) cut.endCut();
     }
-    ASSERT_TRUE(is_decided);
+    if (!is_decided) {
+      allowed *= 16.0;
+      continue;
+    }
     expectSame(nichesOf(cut), nichesBySearches(after, candidates, 1e-2));
   }
+  ASSERT_TRUE(is_decided);
   EXPECT_GT(cycle, 2) << "the limit has to strike for this test to say anything";
   EXPECT_LT(visited, 2 * whole.counts().visited_pairs) << "each cycle goes on where the last one has ended";
 }
