@@ -202,8 +202,10 @@ TEST_F(Record, RefusesWhatCannotBeRecorded) {
   expectRefused(record("comb", "", below("x")), "body_b: there is no body ''");
   expectRefused(record("comb", "comb", below("x")), "body_b: it is body_a, too (name two bodies)");
   expectRefused(record("pill", "lost", below("x")), "it is not watched (set_pair_enabled");
-  expectRefused(record("hook", "far/box", below("x")),
-                "it has had no answer yet (subscribe to distances or niches");
+  const char* const no_answer = "it has had no answer yet (subscribe to distances or niches";
+  // tf may be a cycle behind on a busy machine.
+  ASSERT_TRUE(eventually(
+      [&] { return record("hook", "far/box", below("x")).message.find(no_answer) != std::string::npos; }));
   ASSERT_TRUE(eventually([&] {
     return record("hook", "lost", below("x")).message.find("its poses were not known") != std::string::npos;
   }));
