@@ -26,7 +26,7 @@ double boxDistance(const Vector3d& low_a, const Vector3d& high_a, const Vector3d
   return (low_a - high_b).cwiseMax(low_b - high_a).cwiseMax(0.0).norm();
 }
 
-/// Of an axis-aligned box to the nearest cell.
+/// Returns the distance of an axis-aligned box to the nearest cell.
 double nearestCell(const VoxelGrid& grid, const Vector3d& low, const Vector3d& high) {
   double nearest = std::numeric_limits<double>::infinity();
   for (const VoxelCell& cell : grid.cells()) {

@@ -1,4 +1,4 @@
-// What a recorder keeps of the cycles of a pair: its poses to the last bit, its answers, its gaps.
+// A recorder keeps of the cycles of a pair its poses to the last bit, its answers, its gaps.
 #include "scene/pair_recorder.h"
 
 #include <gtest/gtest.h>

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "ros/transform_message.h"
 #include "support/csv_table.h"
 #include "support/temporary_folder.h"
 
@@ -21,18 +22,6 @@ inline constexpr std::uint32_t kBegin = 1'700'000'000;  // s, of the bags
 /// Milliseconds after the begin.
 inline ros::Time atMs(int milliseconds) {
   return ros::Time(kBegin, 0) + ros::Duration(milliseconds / 1000, milliseconds % 1000 * 1'000'000);
-}
-
-/// The frame at (x, 0, 0) of its parent.
-inline geometry_msgs::TransformStamped inParent(const std::string& child, double x, ros::Time stamp,
-                                                const std::string& parent = "world") {
-  geometry_msgs::TransformStamped transform;
-  transform.header.frame_id = parent;
-  transform.header.stamp = stamp;
-  transform.child_frame_id = child;
-  transform.transform.translation.x = x;
-  transform.transform.rotation.w = 1.0;
-  return transform;
 }
 
 /// Writes a bag of tf.
@@ -73,8 +62,8 @@ class BagFixture : public testing::Test {
   void writeMotion(const std::string& file, int count = 100,
                    rosbag::CompressionType compression = rosbag::compression::Uncompressed) {
     BagWriter writer(folder_.path(file), compression);
-    writer.stand(inParent("a", 0.0, atMs(0)));
-    for (int i = 0; i < count; ++i) writer.move({inParent("b", 2.0 + 0.001 * i, atMs(10 * i))});
+    writer.stand(transformOf("a", 0.0, atMs(0)));
+    for (int i = 0; i < count; ++i) writer.move({transformOf("b", 2.0 + 0.001 * i, atMs(10 * i))});
   }
 
   /// Exit status; what it prints goes to the file "log".

@@ -55,7 +55,7 @@ namespace {
 using test::atMs;
 using test::BagFixture;
 using test::BagWriter;
-using test::inParent;
+using test::transformOf;
 using test::number;
 
 class DistanceBagFaults : public BagFixture {
@@ -144,7 +144,7 @@ TEST_F(DistanceBagFaults, SaysWhereABagIsDamaged) {
 TEST_F(DistanceBagFaults, NamesTopicsThatThereAreInstead) {
   {
     BagWriter writer(folder_.path("run.bag"));
-    writer.move({inParent("b", 2.0, atMs(0))}, "/cell/tf");
+    writer.move({transformOf("b", 2.0, atMs(0))}, "/cell/tf");
     writer.bag.write("/chatter", atMs(0), std_msgs::String());
   }
   expectFault("--bag run.bag", {"run.bag: there is no message on /tf or /tf_static", "/cell/tf"});
@@ -160,7 +160,7 @@ TEST_F(DistanceBagFaults, RefusesATopicOfAnotherTypeThatIsCalledTf) {
   {
     BagWriter writer(folder_.path("run.bag"));
     writer.bag.write("/tf", atMs(0), std_msgs::String());
-    writer.stand(inParent("a", 0.0, atMs(0)));
+    writer.stand(transformOf("a", 0.0, atMs(0)));
   }
   expectFault("--bag run.bag", {"its topic /tf has the type std_msgs/String"});
 }
@@ -169,7 +169,7 @@ TEST_F(DistanceBagFaults, LeavesOutMessagesThatAreNone) {
   RawMessage cut;
   {
     tf2_msgs::TFMessage message;
-    message.transforms = {inParent("b", 2.0, atMs(0))};
+    message.transforms = {transformOf("b", 2.0, atMs(0))};
     cut.bytes.resize(ros::serialization::serializationLength(message));
     ros::serialization::OStream stream(reinterpret_cast<std::uint8_t*>(cut.bytes.data()),
                                        static_cast<std::uint32_t>(cut.bytes.size()));
@@ -180,9 +180,9 @@ TEST_F(DistanceBagFaults, LeavesOutMessagesThatAreNone) {
   for (const std::string& bytes : {cut.bytes, many, std::string("\1\0", 2)}) {
     {
       BagWriter writer(folder_.path("run.bag"));
-      writer.stand(inParent("a", 0.0, atMs(0)));
+      writer.stand(transformOf("a", 0.0, atMs(0)));
       for (int i = 0; i < 10; ++i) {
-        writer.move({inParent("b", 2.0, atMs(10 * i))});
+        writer.move({transformOf("b", 2.0, atMs(10 * i))});
         if (i == 5) writer.bag.write("/tf", atMs(55), RawMessage{bytes});
       }
     }
@@ -196,24 +196,24 @@ TEST_F(DistanceBagFaults, LeavesOutTransformsThatTheNodeRefusesAndSaysWhy) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   {
     BagWriter writer(folder_.path("run.bag"));
-    writer.stand(inParent("a", 0.0, atMs(0)));
+    writer.stand(transformOf("a", 0.0, atMs(0)));
     for (int i = 0; i < 100; ++i) {
-      writer.move({inParent("b", 2.0 + 0.001 * i, atMs(10 * i))});
+      writer.move({transformOf("b", 2.0 + 0.001 * i, atMs(10 * i))});
       const ros::Time stamp = atMs(10 * i + 3);
-      if (i == 10) writer.move({inParent("b", nan, stamp)});
+      if (i == 10) writer.move({transformOf("b", nan, stamp)});
       if (i == 20) {
-        writer.move({inParent("c", 1.0, stamp)});
-        geometry_msgs::TransformStamped turned = inParent("d", 1.0, stamp);
+        writer.move({transformOf("c", 1.0, stamp)});
+        geometry_msgs::TransformStamped turned = transformOf("d", 1.0, stamp);
         turned.transform.rotation.w = 2.0;
         writer.move({turned});
       }
-      if (i == 30) writer.move({inParent("world", 1.0, stamp, "b")});
-      if (i == 40) writer.move({inParent("e", 1.0, ros::Time())}, "/tf", stamp);
-      if (i == 50) writer.move({inParent("c", 1.0, atMs(0) - ros::Duration(60))}, "/tf", stamp);
-      if (i == 60) writer.move({inParent("f", 1.0, atMs(0) + ros::Duration(60))}, "/tf", stamp);
-      if (i == 70) writer.move({inParent("g", 1.0, stamp, "g")});
-      if (i == 80) writer.move({inParent("", 1.0, stamp)});
-      if (i == 90) writer.move({inParent("a", 1.0, stamp)});
+      if (i == 30) writer.move({transformOf("world", 1.0, stamp, "b")});
+      if (i == 40) writer.move({transformOf("e", 1.0, ros::Time())}, "/tf", stamp);
+      if (i == 50) writer.move({transformOf("c", 1.0, atMs(0) - ros::Duration(60))}, "/tf", stamp);
+      if (i == 60) writer.move({transformOf("f", 1.0, atMs(0) + ros::Duration(60))}, "/tf", stamp);
+      if (i == 70) writer.move({transformOf("g", 1.0, stamp, "g")});
+      if (i == 80) writer.move({transformOf("", 1.0, stamp)});
+      if (i == 90) writer.move({transformOf("a", 1.0, stamp)});
     }
   }
   ASSERT_EQ(runBoxes("--bag run.bag"), 0) << log();
@@ -234,11 +234,11 @@ TEST_F(DistanceBagFaults, LeavesOutTransformsThatTheNodeRefusesAndSaysWhy) {
 TEST_F(DistanceBagFaults, AnswersStampsThatGoBackAndSameOnesOnce) {
   {
     BagWriter writer(folder_.path("run.bag"));
-    writer.stand(inParent("a", 0.0, atMs(0)));
-    for (int i = 0; i < 300; ++i) writer.move({inParent("b", 2.0, atMs(10 * i))});
-    writer.move({inParent("b", 4.0, atMs(10))}, "/tf", atMs(3000));  // it is known already
-    writer.move({inParent("b", 4.0, atMs(15))}, "/tf", atMs(3001));
-    writer.move({inParent("b", 4.0, atMs(15))}, "/tf", atMs(3002));
+    writer.stand(transformOf("a", 0.0, atMs(0)));
+    for (int i = 0; i < 300; ++i) writer.move({transformOf("b", 2.0, atMs(10 * i))});
+    writer.move({transformOf("b", 4.0, atMs(10))}, "/tf", atMs(3000));  // it is known already
+    writer.move({transformOf("b", 4.0, atMs(15))}, "/tf", atMs(3001));
+    writer.move({transformOf("b", 4.0, atMs(15))}, "/tf", atMs(3002));
   }
   ASSERT_EQ(runBoxes("--bag run.bag"), 0) << log();
   std::size_t late = 0;
@@ -255,8 +255,8 @@ TEST_F(DistanceBagFaults, AnswersStampsThatGoBackAndSameOnesOnce) {
 TEST_F(DistanceBagFaults, NamesFramesThatNeverAppear) {
   {
     BagWriter writer(folder_.path("run.bag"));
-    writer.stand(inParent("a", 0.0, atMs(0)));
-    writer.move({inParent("arm", 2.0, atMs(10))});
+    writer.stand(transformOf("a", 0.0, atMs(0)));
+    writer.move({transformOf("arm", 2.0, atMs(10))});
   }
   expectFault("--bag run.bag", {"no pair has an answer", "1 frames of bodies are not on tf: 'b'", "arm"});
   writeMotion("run.bag", 10);

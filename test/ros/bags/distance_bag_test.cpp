@@ -13,7 +13,7 @@ namespace {
 using test::atMs;
 using test::BagFixture;
 using test::BagWriter;
-using test::inParent;
+using test::transformOf;
 using test::number;
 using test::Row;
 using test::textOf;
@@ -86,8 +86,8 @@ TEST_F(DistanceBag, AnswersTheStampsOfPublishersOfDifferentRates) {
   {
     BagWriter writer(folder_.path("run.bag"));
     for (int ms = 0; ms <= 1000; ++ms) {
-      if (ms % 10 == 3) writer.move({inParent("a", 3e-4 * ms, atMs(ms))});
-      if (ms % 300 == 50) writer.move({inParent("b", 2.0 + 1e-4 * ms, atMs(ms))});
+      if (ms % 10 == 3) writer.move({transformOf("a", 3e-4 * ms, atMs(ms))});
+      if (ms % 300 == 50) writer.move({transformOf("b", 2.0 + 1e-4 * ms, atMs(ms))});
       if ((ms % 10 == 3 || ms % 300 == 50) && ms >= 50 && ms <= 950) expected.insert(ms);
     }
   }
@@ -117,7 +117,8 @@ TEST_F(DistanceBag, AnswersTheStampsOfManyPublishersAlsoTheLastOnes) {
   {
     BagWriter writer(folder_.path("run.bag"));
     for (int ms = 0; ms < 500; ++ms) {
-      if (ms % 20 < kBoxes) writer.move({inParent("b" + std::to_string(ms % 20), 2.0 + 1e-3 * ms, atMs(ms))});
+      if (ms % 20 < kBoxes)
+        writer.move({transformOf("b" + std::to_string(ms % 20), 2.0 + 1e-3 * ms, atMs(ms))});
     }
   }
   ASSERT_EQ(run("--scene many.yaml --bag run.bag --output d.csv"), 0) << log();
@@ -138,10 +139,10 @@ TEST_F(DistanceBag, PlaysSeveralBagsAsOne) {
     BagWriter object(folder_.path("object.bag"));
     BagWriter both(folder_.path("both.bag"));
     for (int i = 0; i < 50; ++i) {
-      robot.move({inParent("a", 0.001 * i, atMs(10 * i))});
-      both.move({inParent("a", 0.001 * i, atMs(10 * i))});
-      object.move({inParent("b", 2.0 + 0.002 * i, atMs(10 * i + 5))});
-      both.move({inParent("b", 2.0 + 0.002 * i, atMs(10 * i + 5))});
+      robot.move({transformOf("a", 0.001 * i, atMs(10 * i))});
+      both.move({transformOf("a", 0.001 * i, atMs(10 * i))});
+      object.move({transformOf("b", 2.0 + 0.002 * i, atMs(10 * i + 5))});
+      both.move({transformOf("b", 2.0 + 0.002 * i, atMs(10 * i + 5))});
     }
   }
   ASSERT_EQ(runBoxes("--bag both.bag"), 0) << log();
@@ -164,9 +165,9 @@ TEST_F(DistanceBag, PlaysAPartWithTheStaticTransformsFromBefore) {
 TEST_F(DistanceBag, TakesTopicsInANamespace) {
   {
     BagWriter writer(folder_.path("run.bag"));
-    writer.move({inParent("a", 0.0, atMs(0))}, "/cell/tf_static");
-    writer.move({inParent("b", 2.0, atMs(10))}, "/cell/tf");
-    writer.move({inParent("b", 3.0, atMs(20))}, "/tf");
+    writer.move({transformOf("a", 0.0, atMs(0))}, "/cell/tf_static");
+    writer.move({transformOf("b", 2.0, atMs(10))}, "/cell/tf");
+    writer.move({transformOf("b", 3.0, atMs(20))}, "/tf");
   }
   ASSERT_EQ(runBoxes("--bag run.bag --tf-topic /cell/tf --tf-static-topic cell/tf_static"), 0) << log();
   EXPECT_EQ(stampsOf("a/b"), std::vector<std::string>{textOf(atMs(10))});
@@ -176,8 +177,8 @@ TEST_F(DistanceBag, SaysFromWhenOnAPairHasNoAnswer) {
   {
     BagWriter writer(folder_.path("run.bag"));
     for (int i = 0; i < 400; ++i) {
-      writer.move({inParent("a", 0.0, atMs(10 * i))});
-      if (i < 50 || i >= 300) writer.move({inParent("b", 2.0, atMs(10 * i))});
+      writer.move({transformOf("a", 0.0, atMs(10 * i))});
+      if (i < 50 || i >= 300) writer.move({transformOf("b", 2.0, atMs(10 * i))});
     }
   }
   ASSERT_EQ(runBoxes("--bag run.bag"), 0) << log();
@@ -197,10 +198,10 @@ TEST_F(DistanceBag, SaysFromWhenOnAPairHasNoAnswer) {
 TEST_F(DistanceBag, ChangesStaticTransformsAtTheirTime) {
   {
     BagWriter writer(folder_.path("run.bag"));
-    writer.stand(inParent("a", 0.0, atMs(0)));
+    writer.stand(transformOf("a", 0.0, atMs(0)));
     for (int i = 0; i < 100; ++i) {
-      if (i == 60) writer.stand(inParent("a", -1.0, atMs(596)));
-      writer.move({inParent("b", 2.0, atMs(10 * i))});
+      if (i == 60) writer.stand(transformOf("a", -1.0, atMs(596)));
+      writer.move({transformOf("b", 2.0, atMs(10 * i))});
     }
   }
   ASSERT_EQ(runBoxes("--bag run.bag"), 0) << log();
@@ -214,11 +215,11 @@ TEST_F(DistanceBag, ChangesStaticTransformsAtTheirTime) {
 TEST_F(DistanceBag, AnswersAPairThatStandsStillOnce) {
   {
     BagWriter writer(folder_.path("run.bag"));
-    writer.stand(inParent("a", 0.0, atMs(0)));
-    writer.stand(inParent("b", 2.0, atMs(1)));
-    writer.stand(inParent("b", 2.0, atMs(2)));
-    for (int i = 1; i < 20; ++i) writer.move({inParent("elsewhere", i, atMs(10 * i))});
-    writer.stand(inParent("b", 1.25, atMs(300)));
+    writer.stand(transformOf("a", 0.0, atMs(0)));
+    writer.stand(transformOf("b", 2.0, atMs(1)));
+    writer.stand(transformOf("b", 2.0, atMs(2)));
+    for (int i = 1; i < 20; ++i) writer.move({transformOf("elsewhere", i, atMs(10 * i))});
+    writer.stand(transformOf("b", 1.25, atMs(300)));
   }
   ASSERT_EQ(runBoxes("--bag run.bag"), 0) << log();
   const std::vector<Row> found = answers();
@@ -259,7 +260,7 @@ TEST_F(DistanceBag, ReportsOverlap) {
   {
     BagWriter writer(folder_.path("run.bag"));
     for (int i = 0; i < 3; ++i) {
-      writer.move({inParent("a", 0.0, atMs(10 * i)), inParent("b", 1.5 - 0.4 * i, atMs(10 * i))});
+      writer.move({transformOf("a", 0.0, atMs(10 * i)), transformOf("b", 1.5 - 0.4 * i, atMs(10 * i))});
     }
   }
   ASSERT_EQ(runBoxes("--bag run.bag"), 0) << log();
@@ -283,8 +284,8 @@ TEST_F(DistanceBag, AnswersARobotAlone) {
   {
     BagWriter writer(folder_.path("run.bag"));
     for (int i = 0; i < 10; ++i) {
-      writer.move(
-          {inParent("middle", 0.01 * i, atMs(10 * i), "base"), inParent("tip", 2.0, atMs(10 * i), "middle")});
+      writer.move({transformOf("middle", 0.01 * i, atMs(10 * i), "base"),
+                   transformOf("tip", 2.0, atMs(10 * i), "middle")});
     }
   }
   const std::string alone =

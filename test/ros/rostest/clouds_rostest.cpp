@@ -215,7 +215,7 @@ TEST(Clouds, PointsOnTheMovingRobotDoNotCount) {
     EXPECT_NEAR(found->distance, 4.0 - 2.5, 1e-9);
   }
   EXPECT_GT(answered, 0U);
-  // What is farther away than the padding of 5 cm is an obstacle.
+  // A point farther away than the padding of 5 cm is an obstacle.
   std::vector<Point> points = sight(2.0);
   points.push_back({2.75F, 0.05F, 0.05F});
   cell.sensor.see(points);

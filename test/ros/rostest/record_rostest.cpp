@@ -109,7 +109,7 @@ TEST_F(Record, IsReplayedToTheSameBits) {
     EXPECT_EQ(replay(response.folder), 0) << log();
     EXPECT_NE(log().find("pair " + pair + ": "), std::string::npos) << log();
     EXPECT_NE(log().find("bit for bit"), std::string::npos) << log();
-    // What the node had answered live is there, too, and proven as the replay is.
+    // The folder has the live answers too, proven as the replay is.
     const auto live = test::readTable(response.folder + "/live.csv");
     const auto answers = test::readTable(response.folder + "/answers.csv");
     ASSERT_EQ(live.size(), response.poses);
