@@ -55,8 +55,8 @@ namespace {
 using test::atMs;
 using test::BagFixture;
 using test::BagWriter;
-using test::transformOf;
 using test::number;
+using test::transformOf;
 
 class DistanceBagFaults : public BagFixture {
  protected:

@@ -13,10 +13,10 @@ namespace {
 using test::atMs;
 using test::BagFixture;
 using test::BagWriter;
-using test::transformOf;
 using test::number;
 using test::Row;
 using test::textOf;
+using test::transformOf;
 
 constexpr double kRounding = 1e-12;  // m
 
