@@ -31,7 +31,7 @@ sys.path.insert(0, os.path.join(PACKAGE, "scripts", "soak"))
 NODES = {"node": "/concave_distance", "bridge": "/moveit_bridge", "guard": "/velocity_guard"}
 RATE = 50.0              # Hz, of launch/soak.launch
 EDIT_PERIOD = 0.5        # s
-CAMERA = {"voxel_size": 0.05, "range": 2.6, "stale_after": 3.0}    # some 1,000 voxels; it rests for a comparison
+CAMERA = {"voxel_size": 0.05, "range": 2.6, "stale_after": 8.0}    # some 1,000 voxels; it rests for a comparison
 CUTOFF = 0.15            # m, beyond constraint_distance of launch/soak.launch
 LONGEST_START = 120.0    # s
 PAIR_TOPICS = (("wam7/shelf_board_3", "b"), ("wam6/crate_front", "b"), ("wam7/camera", None))
@@ -69,7 +69,8 @@ class Soak:
         self.pair_topics = [PairTopic(pair, rests) for pair, rests in PAIR_TOPICS]
         self.reports = Reports(quiet=("/soak_fresh",))
         self.edits = Edits(options.seed)
-        self.comparer = Comparer(options.program, options.folder, self.distances, self.camera, self.pair_topics)
+        self.comparer = Comparer(options.program, options.folder, self.distances, self.camera, self.pair_topics,
+                                 self.reports)
         self.wait_for_all()
         self.processes = Processes(NODES, options.launch_pid)
 

@@ -1,7 +1,6 @@
 """A fresh node that loads the scene as it is now and says what a node that has run for hours should say.
 
-The edits rest meanwhile, and the camera for a second, so that it is known which of its messages the cloud is of. Of some
-messages of `distances` every pair is asked again, at the stamp that it has there, of a node that was started a moment
+The edits rest meanwhile, and the camera until the diagnostics say that its newest message is served. Of some messages of `distances` every pair is asked again, at the stamp that it has there, of a node that was started a moment
 ago, has the same transforms and gets that message of the camera.
 """
 
@@ -23,12 +22,14 @@ FRESH = "/soak_fresh/"
 POINTS = "/soak_fresh_points"
 TOLERANCE = 1e-11       # m: two proofs of one distance, each rounded by 2^-45 of at most 100 m (doc/numerics.md)
 NICHE_TOLERANCE = 1e-9  # m: distances and points of niches, which are found from other starts
-LONGEST_START = 60.0    # s
+LONGEST_START = 100.0   # s
 LONGEST_WAIT = 10.0     # s for a scene that rests, and for a cloud
 REST = 1.0              # s without a change of the scene
 HISTORY = 1.5           # s of transforms that the fresh node has before a sample
 SAMPLES = 5             # messages that are compared
-CAMERA_RESTS = 1.2      # s, less than stale_after of its cloud
+CAMERA_RESTS = 4.0      # s at most until its newest message is served; its cloud may be older (soak.py)
+SETTLES = 0.2           # s from the diagnostics to the first message that is compared
+COLLECTS = 0.6          # s
 LOW_PRIORITY = 15       # that the fresh node's is lower by: it is no part of the cell
 SOLVED = (PairStatus.OK, PairStatus.PENETRATING, PairStatus.BUDGET_EXHAUSTED)
 
@@ -155,9 +156,9 @@ class FreshNode:
 class Comparer:
     """Compares what the node has published with what a fresh one answers."""
 
-    def __init__(self, program, folder, distances, camera, pair_topics):
+    def __init__(self, program, folder, distances, camera, pair_topics, reports):
         self.program, self.folder = program, folder
-        self.distances, self.camera, self.pair_topics = distances, camera, pair_topics
+        self.distances, self.camera, self.pair_topics, self.reports = distances, camera, pair_topics, reports
         self.get_scene = rospy.ServiceProxy(NODE + "get_scene", GetScene)
         self.publisher = rospy.Publisher(POINTS, PointCloud2, queue_size=1)
 
@@ -190,21 +191,35 @@ class Comparer:
         return files
 
     def sample(self):
-        """Some messages of distances and the one of the camera that their cloud is of; None: the camera does not rest."""
+        """Some messages of distances and the one of the camera that their cloud is of; None: it is never served."""
         camera = pid_of("/simulate_camera")
         if camera is None:
             return None
         os.kill(camera, signal.SIGSTOP)
         try:
-            time.sleep(CAMERA_RESTS)
-            distances, cloud = self.distances.newest(), self.camera.newest()[-1]
+            cloud = self.served_cloud()
+            if cloud is None:
+                return None
+            time.sleep(SETTLES)
+            begins = time.monotonic()
+            time.sleep(COLLECTS)
+            known = [buffer for at, buffer in self.distances.newest() if at > begins]
         finally:
             os.kill(camera, signal.SIGCONT)
-        known = [buffer for at, buffer in distances if at > cloud[0] + 0.5 * CAMERA_RESTS]
         if len(known) < SAMPLES:
             return None
         chosen = known[len(known) % SAMPLES::len(known) // SAMPLES]
-        return [Distances().deserialize(buffer) for buffer in chosen], PointCloud2().deserialize(cloud[1])
+        return [Distances().deserialize(buffer) for buffer in chosen], cloud
+
+    def served_cloud(self):
+        """The newest message of the camera that rests, once the node says that it serves it."""
+        end = time.monotonic() + CAMERA_RESTS
+        while time.monotonic() < end:
+            cloud = PointCloud2().deserialize(self.camera.newest()[-1][1])
+            if self.reports.stamp_of_cloud() == str(cloud.header.stamp.secs) + ".%09d" % cloud.header.stamp.nsecs:
+                return cloud
+            time.sleep(0.02)
+        return None
 
     def _wait_for_listener(self):
         end = time.monotonic() + LONGEST_WAIT
@@ -215,7 +230,7 @@ class Comparer:
         time.sleep(HISTORY)
         sample = self.sample()
         if sample is None:
-            found.failed = "the camera did not rest, or no distances came"
+            found.failed = "no message of the camera was served in time, or no distances came"
             return
         self._wait_for_listener()
         self.publisher.publish(sample[1])

@@ -117,7 +117,7 @@ class Reports:
         self.lock = threading.Lock()
         self.quiet = quiet  # nodes whose errors do not count
         self.cycles = collections.Counter()
-        self.largest_ms, self.voxels = 0.0, 0
+        self.largest_ms, self.voxels, self.stamp = 0.0, 0, ""
         self.errors, self.last_error = 0, ""
         rospy.Subscriber("/diagnostics", DiagnosticArray, self.diagnose, queue_size=100)
         rospy.Subscriber("/rosout", Log, self.read, queue_size=1000)
@@ -132,6 +132,12 @@ class Reports:
                     self.cycles[key] += int(values.get(key, 0))
                 self.largest_ms = max(self.largest_ms, float(values.get("cycle time max (ms)", 0.0)))
                 self.voxels = int(values.get("camera occupied voxels", self.voxels))
+                self.stamp = values.get("camera stamp (s)", self.stamp)
+
+    def stamp_of_cloud(self):
+        """Seconds with nine digits, as text, of the cloud that the node serves."""
+        with self.lock:
+            return self.stamp
 
     def read(self, message):
         if message.level < Log.ERROR or message.name in self.quiet:

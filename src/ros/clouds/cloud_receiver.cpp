@@ -125,6 +125,7 @@ void CloudReceiver::use(const Arrival& arrival) {
     Made made = makeVoxels(reading, *scene, scene->bodies[*place]);
     CloudReport report;
     report.remark = made.remark;
+    report.stamp = stamp;
     report.points = reading.points_in;
     report.left_out = made.left_out;
     report.voxels = made.voxels.cells().size();
@@ -137,6 +138,7 @@ void CloudReceiver::use(const Arrival& arrival) {
       ROS_WARN_STREAM("cloud '" << name_ << "': " << report.remark);
     ++report_.taken;
     report_.remark = report.remark;
+    report_.stamp = report.stamp;
     report_.points = report.points;
     report_.left_out = report.left_out;
     report_.voxels = report.voxels;

@@ -127,6 +127,7 @@ void describeClouds(const std::vector<CloudReport>& clouds,
     status.add(name + " passed over for a newer one", cloud.passed_over);
     status.add(name + " refused", cloud.refused);
     status.add(name + " last refusal", cloud.last_refusal);
+    status.add(name + " stamp (s)", cloud.stamp);
     status.add(name + " points", cloud.points);
     status.add(name + " points left out", cloud.left_out);
     status.add(name + " occupied voxels", cloud.voxels);
