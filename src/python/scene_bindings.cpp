@@ -2,6 +2,7 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
+#include <exception>
 #include <fstream>
 #include <iterator>
 #include <map>
@@ -11,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/csv_table.h"
 #include "bindings.h"
 #include "concave_distance/base/error.h"
 #include "concave_distance/base/not_computed.h"
@@ -29,9 +31,15 @@ namespace py = pybind11;
 using Texts = std::vector<std::string>;
 
 std::string readText(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(file), {}};
-  if (!file) throw Error(path, "the file cannot be read", "check its path and permissions");
+  requireReadableFile(path);
+  std::string text;
+  try {
+    std::ifstream file(path, std::ios::binary);
+    file.exceptions(std::ios::badbit | std::ios::failbit);
+    text.assign(std::istreambuf_iterator<char>(file), {});
+  } catch (const std::exception&) {
+    throw Error(path, "the file cannot be read", "check its path and permissions");
+  }
   return text;
 }
 

@@ -18,6 +18,7 @@
 #include "bag_report.h"
 #include "base/number_text.h"
 #include "base/run_tool.h"
+#include "base/short_text.h"
 #include "base/versions.h"
 #include "concave_distance/base/error.h"
 #include "ros/node/scene_loader.h"
@@ -112,7 +113,7 @@ void printProblems(const BagReplay& replay, const Scene& scene, const std::strin
       describeMissingFrames(*replay.transforms().current(), scene, options.node.reference_frame);
   if (!missing.empty()) {
     throw Error(where, "no pair has an answer: " + tools::inOptions(missing),
-                "the bag's frames: " + replay.transforms().current()->allFramesAsString());
+                "the bag's frames: " + shortText(replay.transforms().current()->allFramesAsString()));
   }
   const auto unanswered = replay.unanswered();
   throw Error(where,

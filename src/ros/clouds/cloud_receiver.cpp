@@ -200,7 +200,8 @@ CloudReceiver::Made CloudReceiver::makeVoxels(const CloudReading& reading, const
   VoxelCell cell{};
   for (const Eigen::Vector3d& seen : reading.points) {
     const Eigen::Vector3d point = frame_from_reading * seen;
-    if (made.voxels.locate(point, cell)) take(point, cell);
+    if (!made.voxels.locate(point, cell)) throwOutside(point);
+    take(point, cell);
   }
   if (reading.map) {
     for (const VoxelCell& occupied : reading.map->cells()) {
@@ -216,6 +217,15 @@ CloudReceiver::Made CloudReceiver::makeVoxels(const CloudReading& reading, const
     addRemark(made.remark, "leave_out names no body of the scene: " + detail::listed(unknown, kMostNamed));
   }
   return made;
+}
+
+// Its distance would be missing without a word.
+void CloudReceiver::throwOutside(const Eigen::Vector3d& point) const {
+  const double reach = settings_->voxel_size * VoxelGrid::kLargestIndex;
+  throw Error("cloud '" + name_ + "'",
+              "a point is " + numberText(point.cwiseAbs().maxCoeff(), 3) + " m from the origin of '" +
+                  frame_ + "' along an axis, where voxels reach " + numberText(reach, 3) + " m",
+              "give it a range that leaves such points out, or larger voxels");
 }
 
 void CloudReceiver::serve(const SceneBody& body, Made made, ros::Time stamp) {

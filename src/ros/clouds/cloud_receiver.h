@@ -57,6 +57,7 @@ class CloudReceiver {
   void work();
   void use(const Arrival& arrival);
   Made makeVoxels(const CloudReading& reading, const Scene& scene, const SceneBody& body) const;
+  [[noreturn]] void throwOutside(const Eigen::Vector3d& point) const;
   void serve(const SceneBody& body, Made made, ros::Time stamp);
 
   std::string name_;
