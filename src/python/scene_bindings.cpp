@@ -22,6 +22,7 @@
 #include "pose_arrays.h"
 #include "python_scene.h"
 #include "text.h"
+#include "unlocked.h"
 
 namespace concave_distance::python {
 namespace {
@@ -60,7 +61,7 @@ ScenePointer loadSceneOf(const std::string& path, const Texts& package_folders, 
   SceneLoadOptions options =
       loadOptions(package_folders, mesh_folders, strict, cache, "load_scene", keywords);
   options.descriptions = descriptions;
-  const py::gil_scoped_release unlocked;
+  const Unlocked unlocked;
   return std::make_shared<PythonScene>(loadSceneFile(path, options));
 }
 
@@ -70,7 +71,7 @@ ScenePointer loadRobotOf(const std::string& urdf, const std::optional<std::strin
   SceneLoadOptions options =
       loadOptions(package_folders, mesh_folders, strict, cache, "load_robot", keywords);
   options.mesh_search_path.push_back(urdf);
-  const py::gil_scoped_release unlocked;
+  const Unlocked unlocked;
   if (srdf) options.descriptions["robot_description_semantic"] = readText(*srdf);
   return std::make_shared<PythonScene>(loadRobotScene(readText(urdf), urdf, options));
 }
@@ -101,7 +102,7 @@ py::array_t<double> posesOf(const PythonScene& scene, const py::object& position
   if (given.isArray()) shape.insert(shape.begin(), static_cast<py::ssize_t>(given.count()));
   py::array_t<double> poses(shape);
   double* at = poses.mutable_data();
-  const py::gil_scoped_release unlocked;
+  const Unlocked unlocked;
   SceneState state = scene.joints->startState();
   given.placeRoots(state);
   for (std::size_t i = 0; i < given.count(); ++i) {

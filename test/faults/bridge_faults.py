@@ -204,7 +204,7 @@ survives("id_that_is_no_utf8", lambda: good_bytes().replace(b"good", b"\xff\xfe\
 for operation in (-128, 4, 127):
     survives("operation_%d" % operation, lambda operation=operation: diff(collision_object("bad", operation=operation)), "operation")
 survives("move_of_nothing", lambda: diff(collision_object("bad", [], operation=3)), "MOVE")
-survives("frame_nowhere", lambda: diff(collision_object("bad", frame="nowhere")), "nowhere")
+survives("frame_nowhere", lambda: diff(collision_object("bad", frame="nowhere")))
 survives("frame_of_itself", lambda: [diff(collision_object("bad")), diff(collision_object("bad", frame="bad"))])
 
 

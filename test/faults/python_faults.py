@@ -89,24 +89,18 @@ del before, box, ball, tracker, scene, scene_tracker, answers, robot, moving, ma
 gc.collect()
 noise = [np.random.rand(1000) for _ in range(2000)]
 assert np.array_equal(rows["distance"], expected)
-for one, other in zip(keep, (point, table, vertices, pairs, states, niches, part)):
-    assert one.tobytes() == np.ascontiguousarray(other).tobytes()
-assert keep_jacobian.tobytes() == jacobian.tobytes() and keep_slots.tobytes() == slots.tobytes()
+keep += [keep_jacobian, keep_slots]
+for one, other in zip(keep, (point, table, vertices, pairs, states, niches, part, jacobian, slots)):
+    assert repr(one.tolist()) == repr(other.tolist())
 """)
-program("objects_made_without_init", """
+program("classes_without_their_init", """
 for kind in (cd.BodyMesh, cd.Answers, cd.SceneAnswers, cd.Scene, cd.Constraints, cd.Clearance, cd.RepairReport, cd.PairTracker,
              cd.SceneTracker, cd.ConstraintRows):
-    for make in (lambda: kind(), lambda: kind.__new__(kind)):
-        try:
-            one = make()
-        except TypeError:
-            continue
-        for name in dir(one):
-            try:
-                value = getattr(one, name)
-                value() if callable(value) and not name.startswith("__") else None
-            except (TypeError, cd.Error):
-                pass
+    try:
+        kind()
+        raise AssertionError(kind)
+    except TypeError:
+        pass
     class Heir(kind):
         def __init__(self):
             pass
@@ -156,7 +150,7 @@ def work(seed):
             else:
                 tracker.parameters, moving.nearest(robot.poses_of_bodies(np.zeros((3, 2))))
         except cd.Error as error:
-            if "no cycle" not in str(error):
+            if error.where not in ("time", "tracker"):
                 problems.append(error)
         except Exception as error:
             problems.append(error)
