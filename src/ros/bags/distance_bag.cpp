@@ -87,14 +87,14 @@ Scene load(BagOptions& options) {
 
 /// Prints what a reader of the rows should know.
 void printProblems(const BagReplay& replay, const Scene& scene, const std::string& reference_frame) {
-  const ReplayCounts& counts = replay.counts();
-  for (const auto& [name, reason] : counts.reasons)
+  const BagRefusals& refusals = replay.moments().refusals();
+  for (const auto& [name, reason] : refusals.reasons)
     std::cerr << "warning: " << tools::inOptions(reason) << '\n';
-  if (counts.refused > counts.reasons.size()) {
-    std::cerr << "warning: " << counts.refused << " transforms were refused in all\n";
+  if (refusals.count > refusals.reasons.size()) {
+    std::cerr << "warning: " << refusals.count << " transforms were refused in all\n";
   }
-  if (counts.rows == 0) std::cerr << "warning: no pair comes within its cutoff\n";
-  const std::map<std::string, std::string> unanswered = replay.unanswered();
+  if (replay.counts().rows == 0) std::cerr << "warning: no pair comes within its cutoff\n";
+  const std::map<std::string, std::string> unanswered = replay.rows().unanswered();
   std::size_t listed = 0;
   for (const auto& [name, problem] : unanswered) {
     if (++listed > kMostListed) break;
@@ -103,19 +103,20 @@ void printProblems(const BagReplay& replay, const Scene& scene, const std::strin
   if (unanswered.size() > kMostListed) {
     std::cerr << "warning: " << unanswered.size() << " pairs have no answer in all\n";
   }
-  const std::string missing = describeMissingFrames(*replay.transforms().current(), scene, reference_frame);
+  const std::string missing =
+      describeMissingFrames(*replay.moments().buffer().current(), scene, reference_frame);
   if (!missing.empty()) std::cerr << "warning: at the end " << tools::inOptions(missing) << '\n';
 }
 
 [[noreturn]] void throwWithoutAnswer(const BagReplay& replay, const Scene& scene, const BagOptions& options) {
   const std::string where = joinedText(options.bags.paths, ", ");
   const std::string missing =
-      describeMissingFrames(*replay.transforms().current(), scene, options.node.reference_frame);
+      describeMissingFrames(*replay.moments().buffer().current(), scene, options.node.reference_frame);
   if (!missing.empty()) {
     throw Error(where, "no pair has an answer: " + tools::inOptions(missing),
-                "the bag's frames: " + shortText(replay.transforms().current()->allFramesAsString()));
+                "the bag's frames: " + shortText(replay.moments().buffer().current()->allFramesAsString()));
   }
-  const auto unanswered = replay.unanswered();
+  const auto unanswered = replay.rows().unanswered();
   throw Error(where,
               "no pair has an answer" +
                   (unanswered.empty() ? "" : ": " + tools::inOptions(unanswered.begin()->second)),

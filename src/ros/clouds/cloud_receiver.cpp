@@ -12,32 +12,16 @@
 #include "base/number_text.h"
 #include "base/short_text.h"
 #include "concave_distance/base/error.h"
-#include "kinematics/wording.h"
 #include "ros/callback_guard.h"
-#include "ros/tf/tf_poses.h"
 #include "scene/cloud_bodies.h"
 
 namespace concave_distance {
 namespace {
 
 constexpr std::uint32_t kCloudQueueLength = 1;
-constexpr std::size_t kMostNamed = 8;  // bodies in a remark
 
 // Ends the use of a message whose cloud is not in the scene any more.
 struct Gone {};
-
-Eigen::Isometry3d requirePose(const TransformBuffer& transforms, const std::string& target,
-                              const std::string& source, ros::Time stamp, double timeout) {
-  waitForFrames(transforms, target, source, stamp, timeout);
-  const FrameTransform found = lookUpFrame(*transforms.current(), target, source, stamp);
-  if (found.status == TransformStatus::Ok) return found.target_from_source;
-  throw Error("tf", found.message, "publish the sensor's frame at the stamps of its clouds");
-}
-
-void addRemark(std::string& remarks, const std::string& remark) {
-  if (!remarks.empty()) remarks += "; ";
-  remarks += remark;
-}
 
 std::string tooLate(double seconds, const CloudSettings& settings) {
   TextStream text;
@@ -122,17 +106,18 @@ void CloudReceiver::use(const Arrival& arrival) {
     const std::shared_ptr<const Scene> scene = keeper_.served()->scene;
     const std::optional<std::size_t> place = scene->findBody(name_);
     if (!place || !isOf(scene->bodies[*place])) return;
-    Made made = makeVoxels(reading, *scene, scene->bodies[*place]);
+    const SceneBody& body = scene->bodies[*place];
+    const CloudVoxels made = makeVoxels(reading, *scene, body, transforms_, transform_timeout_);
     CloudReport report;
     report.remark = made.remark;
     report.stamp = stamp;
     report.points = reading.points_in;
     report.left_out = made.left_out;
     report.voxels = made.voxels.cells().size();
-    serve(scene->bodies[*place], std::move(made), stamp);
+    serve(body, made, stamp);
     report.seconds = std::chrono::duration<double>(Clock::now() - arrival.time).count();
     if (report.seconds >= settings_->stale_after)
-      addRemark(report.remark, tooLate(report.seconds, *settings_));
+      detail::addRemark(report.remark, tooLate(report.seconds, *settings_));
     const std::lock_guard<std::mutex> lock(mutex_);
     if (!report.remark.empty() && throttle_.isDue(report.remark))
       ROS_WARN_STREAM("cloud '" << name_ << "': " << report.remark);
@@ -159,76 +144,7 @@ void CloudReceiver::use(const Arrival& arrival) {
     ROS_WARN_STREAM("cloud '" << name_ << "' is refused: " << report_.last_refusal);
 }
 
-CloudReceiver::Made CloudReceiver::makeVoxels(const CloudReading& reading, const Scene& scene,
-                                              const SceneBody& body) const {
-  const Eigen::Isometry3d frame_from_reading =
-      requirePose(transforms_, frame_, reading.frame, reading.stamp, transform_timeout_);
-  Made made{VoxelGrid(reading.map ? reading.map->size() : settings_->voxel_size),
-            reading.map ? frame_from_reading : Eigen::Isometry3d::Identity(), 0, ""};
-  std::vector<std::string> unknown;
-  detail::PointFilter filter;
-  const std::string& frame_of_points = reading.map ? reading.frame : frame_;
-  std::vector<std::string> lost;
-  const ros::WallTime deadline = ros::WallTime::now() + ros::WallDuration(transform_timeout_);
-  for (const std::size_t index : detail::bodiesLeftOut(scene, body, unknown)) {
-    const SceneBody& left_out = scene.bodies[index];
-    // A camera may be faster than the robot's joints.
-    waitForFrames(transforms_, left_out.frame, frame_of_points, reading.stamp,
-                  (deadline - ros::WallTime::now()).toSec());
-    const FrameTransform found =
-        lookUpFrame(*transforms_.current(), left_out.frame, frame_of_points, reading.stamp);
-    if (found.status != TransformStatus::Ok) {
-      lost.push_back(left_out.name);
-      continue;
-    }
-    filter.add(left_out.mesh, left_out.frame_from_body.inverse(Eigen::Isometry) * found.target_from_source,
-               settings_->padding);
-  }
-  const auto take = [&](const Eigen::Vector3d& point, const VoxelCell& cell) {
-    if (made.voxels.contains(cell)) return;
-    if (filter.isOnBody(point)) {
-      ++made.left_out;
-      return;
-    }
-    if (made.voxels.cells().size() >= settings_->largest_voxel_count) {
-      throw Error("cloud '" + name_ + "'",
-                  "more than " + std::to_string(settings_->largest_voxel_count) + " voxels are occupied",
-                  "use larger voxels or a shorter range, or raise largest_voxel_count");
-    }
-    made.voxels.insert(cell);
-  };
-  VoxelCell cell{};
-  for (const Eigen::Vector3d& seen : reading.points) {
-    const Eigen::Vector3d point = frame_from_reading * seen;
-    if (!made.voxels.locate(point, cell)) throwOutside(point);
-    take(point, cell);
-  }
-  if (reading.map) {
-    for (const VoxelCell& occupied : reading.map->cells()) {
-      const Eigen::Vector3d corner(occupied[0], occupied[1], occupied[2]);
-      take(made.voxels.size() * (corner + Eigen::Vector3d::Constant(0.5)), occupied);
-    }
-  }
-  if (!lost.empty()) {
-    made.remark = "points on these bodies are not left out, because tf does not say where they were: " +
-                  detail::listed(lost, kMostNamed);
-  }
-  if (!unknown.empty()) {
-    addRemark(made.remark, "leave_out names no body of the scene: " + detail::listed(unknown, kMostNamed));
-  }
-  return made;
-}
-
-// Its distance would be missing without a word.
-void CloudReceiver::throwOutside(const Eigen::Vector3d& point) const {
-  const double reach = settings_->voxel_size * VoxelGrid::kLargestIndex;
-  throw Error("cloud '" + name_ + "'",
-              "a point is " + numberText(point.cwiseAbs().maxCoeff(), 3) + " m from the origin of '" +
-                  frame_ + "' along an axis, where voxels reach " + numberText(reach, 3) + " m",
-              "give it a range that leaves such points out, or larger voxels");
-}
-
-void CloudReceiver::serve(const SceneBody& body, Made made, ros::Time stamp) {
+void CloudReceiver::serve(const SceneBody& body, const CloudVoxels& made, ros::Time stamp) {
   CloudState state;
   state.settings = settings_;
   state.stamp = static_cast<std::int64_t>(stamp.toNSec());
@@ -252,36 +168,6 @@ void CloudReceiver::serve(const SceneBody& body, Made made, ros::Time stamp) {
     if (is_same && scene.bodies[*place].cloud->cells != before.cells) throw Gone();
     detail::takeCloud(scene.bodies.edit(*place), state, mesh, made.frame_from_voxels);
   });
-}
-
-CloudReceivers::CloudReceivers(ros::NodeHandle node, SceneStore& keeper, const TransformBuffer& transforms,
-                               double transform_timeout)
-    : node_(std::move(node)),
-      keeper_(keeper),
-      transforms_(transforms),
-      transform_timeout_(transform_timeout) {}
-
-void CloudReceivers::follow(const Scene& scene) {
-  const auto end = std::remove_if(receivers_.begin(), receivers_.end(), [&](const auto& receiver) {
-    return std::none_of(scene.bodies.begin(), scene.bodies.end(),
-                        [&](const SceneBody& body) { return receiver->isOf(body); });
-  });
-  receivers_.erase(end, receivers_.end());
-  for (const SceneBody& body : scene.bodies) {
-    if (!body.cloud) continue;
-    const bool is_followed = std::any_of(receivers_.begin(), receivers_.end(),
-                                         [&](const auto& receiver) { return receiver->isOf(body); });
-    if (is_followed) continue;
-    receivers_.push_back(
-        std::make_unique<CloudReceiver>(node_, body, keeper_, transforms_, transform_timeout_));
-  }
-}
-
-std::vector<CloudReport> CloudReceivers::take() {
-  std::vector<CloudReport> reports;
-  reports.reserve(receivers_.size());
-  for (const auto& receiver : receivers_) reports.push_back(receiver->take());
-  return reports;
 }
 
 }  // namespace concave_distance

@@ -10,10 +10,9 @@
 #include <mutex>
 #include <string>
 #include <thread>
-#include <vector>
 
 #include "base/log_throttle.h"
-#include "cloud_message.h"
+#include "cloud_voxels.h"
 #include "ros/tf/transform_buffer.h"
 #include "ros/topics/cloud_report.h"
 #include "ros/topics/scene_store.h"
@@ -45,20 +44,11 @@ class CloudReceiver {
     topic_tools::ShapeShifter::ConstPtr message;
     Clock::time_point time;
   };
-  /// This is what a body is made of.
-  struct Made {
-    VoxelGrid voxels;
-    Eigen::Isometry3d frame_from_voxels;
-    std::size_t left_out = 0;
-    std::string remark;
-  };
 
   void receive(const topic_tools::ShapeShifter::ConstPtr& message);
   void work();
   void use(const Arrival& arrival);
-  Made makeVoxels(const CloudReading& reading, const Scene& scene, const SceneBody& body) const;
-  [[noreturn]] void throwOutside(const Eigen::Vector3d& point) const;
-  void serve(const SceneBody& body, Made made, ros::Time stamp);
+  void serve(const SceneBody& body, const CloudVoxels& made, ros::Time stamp);
 
   std::string name_;
   std::string frame_;
@@ -76,24 +66,6 @@ class CloudReceiver {
 
   std::thread thread_;
   ros::Subscriber subscriber_;  ///< last member: no message comes before the others are there
-};
-
-/// Follows all clouds of the scene that is served.
-class CloudReceivers {
- public:
-  CloudReceivers(ros::NodeHandle node, SceneStore& keeper, const TransformBuffer& transforms,
-                 double transform_timeout);
-
-  /// Subscribes to the clouds of a scene that are not followed yet, and ends those that are gone.
-  void follow(const Scene& scene);
-  std::vector<CloudReport> take();
-
- private:
-  ros::NodeHandle node_;
-  SceneStore& keeper_;
-  const TransformBuffer& transforms_;
-  double transform_timeout_;
-  std::vector<std::unique_ptr<CloudReceiver>> receivers_;
 };
 
 }  // namespace concave_distance

@@ -8,4 +8,5 @@
 // robot, and the stamp of the message; what cannot be used is refused with its reason, and the last one goes
 // on until it is too old. It keeps the last message of each cloud that has not been used yet: while one is
 // made, those between are passed over. Begin with cloud_receiver.h (one cloud's thread), then cloud_message.h
-// (what is read of a message) and octomap_message.h (maps). Nothing here is in the way of a cycle.
+// (what is read of a message), octomap_message.h (maps) and cloud_voxels.h (what a body is made of). Nothing
+// here is in the way of a cycle.

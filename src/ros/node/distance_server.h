@@ -17,7 +17,7 @@
 #include "cycle_runner.h"
 #include "description_watch.h"
 #include "node_parameters.h"
-#include "ros/clouds/cloud_receiver.h"
+#include "ros/clouds/cloud_receivers.h"
 #include "ros/services/clearance_service.h"
 #include "ros/services/distance_queries.h"
 #include "ros/services/move_receiver.h"
