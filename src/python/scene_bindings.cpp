@@ -2,6 +2,7 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
+#include <exception>
 #include <fstream>
 #include <iterator>
 #include <map>
@@ -11,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/csv_table.h"
 #include "bindings.h"
 #include "concave_distance/base/error.h"
 #include "concave_distance/base/not_computed.h"
@@ -20,6 +22,7 @@
 #include "pose_arrays.h"
 #include "python_scene.h"
 #include "text.h"
+#include "unlocked.h"
 
 namespace concave_distance::python {
 namespace {
@@ -29,9 +32,15 @@ namespace py = pybind11;
 using Texts = std::vector<std::string>;
 
 std::string readText(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(file), {}};
-  if (!file) throw Error(path, "the file cannot be read", "check its path and permissions");
+  requireReadableFile(path);
+  std::string text;
+  try {
+    std::ifstream file(path, std::ios::binary);
+    file.exceptions(std::ios::badbit | std::ios::failbit);
+    text.assign(std::istreambuf_iterator<char>(file), {});
+  } catch (const std::exception&) {
+    throw Error(path, "the file cannot be read", "check its path and permissions");
+  }
   return text;
 }
 
@@ -52,7 +61,7 @@ ScenePointer loadSceneOf(const std::string& path, const Texts& package_folders, 
   SceneLoadOptions options =
       loadOptions(package_folders, mesh_folders, strict, cache, "load_scene", keywords);
   options.descriptions = descriptions;
-  const py::gil_scoped_release unlocked;
+  const Unlocked unlocked;
   return std::make_shared<PythonScene>(loadSceneFile(path, options));
 }
 
@@ -71,7 +80,7 @@ ScenePointer loadRobotOf(const std::string& urdf, const std::optional<std::strin
   options.geometry = geometryOf(geometry);
   options.skip_overlapping_pairs = skip_overlapping_pairs;
   options.mesh_search_path.push_back(urdf);
-  const py::gil_scoped_release unlocked;
+  const Unlocked unlocked;
   if (srdf) options.descriptions["robot_description_semantic"] = readText(*srdf);
   return std::make_shared<PythonScene>(loadRobotScene(readText(urdf), urdf, options));
 }
@@ -108,7 +117,7 @@ py::array_t<double> posesOf(const PythonScene& scene, const py::object& position
   if (given.isArray()) shape.insert(shape.begin(), static_cast<py::ssize_t>(given.count()));
   py::array_t<double> poses(shape);
   double* at = poses.mutable_data();
-  const py::gil_scoped_release unlocked;
+  const Unlocked unlocked;
   SceneState state = scene.joints->startState();
   given.placeRoots(state);
   for (std::size_t i = 0; i < given.count(); ++i) {

@@ -2,6 +2,7 @@
 
 #include <pybind11/pybind11.h>
 
+#include <optional>
 #include <string>
 
 namespace concave_distance::python {
@@ -23,6 +24,15 @@ inline std::string inKeywords(const std::string& message) {
     if (at + 1 < text.size() && 'a' <= text[at + 1] && text[at + 1] <= 'z') text.erase(at, 1);
   }
   return text;
+}
+
+/// Returns the bytes of a Python text, nothing where it has surrogates, which UTF-8 does not.
+inline std::optional<std::string> toUtf8(pybind11::handle text) {
+  Py_ssize_t size = 0;
+  const char* bytes = PyUnicode_AsUTF8AndSize(text.ptr(), &size);
+  if (bytes != nullptr) return std::string(bytes, static_cast<std::size_t>(size));
+  PyErr_Clear();
+  return std::nullopt;
 }
 
 }  // namespace concave_distance::python

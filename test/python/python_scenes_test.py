@@ -171,6 +171,18 @@ class Scenes(unittest.TestCase):
             cd.load_robot(path, cache="off", strict=True)
         self.assertIn("in mesh_folders", str(caught.exception))
 
+    def test_none_is_no_scene(self):
+        for make in (cd.SceneTracker, cd.ConstraintRows):
+            with self.assertRaises(TypeError):
+                make(None)
+
+    def test_files_that_are_none(self):
+        for path in ("/", "/dev/zero"):
+            for load in (lambda: cd.load_robot(path), lambda: cd.load_robot(self.write("robot.urdf", SLIDE), path)):
+                with self.assertRaises(cd.Error) as caught:
+                    load()
+                self.assertEqual(caught.exception.where, path)
+
     def test_errors(self):
         scene = cd.load_scene(self.write("scene.yaml", SCENE), cache="off")
         robot = cd.load_robot(self.write("robot.urdf", SLIDE), cache="off")

@@ -19,6 +19,7 @@
 #include "bag_report.h"
 #include "base/number_text.h"
 #include "base/run_tool.h"
+#include "base/short_text.h"
 #include "base/versions.h"
 #include "concave_distance/base/error.h"
 #include "kinematics/wording.h"
@@ -126,7 +127,7 @@ void printProblems(const BagReplay& replay, const Scene& scene, const std::strin
     frames._getFrameStrings(names);
     std::sort(names.begin(), names.end());
     throw Error(where, "no pair has an answer: " + tools::inOptions(missing),
-                "the bag's frames: " + detail::listed(names, kMostListed * 10));
+                "the bag's frames: " + shortText(detail::listed(names, kMostListed * 10)));
   }
   const auto unanswered = replay.rows().unanswered();
   throw Error(where,

@@ -141,6 +141,32 @@ TEST_F(DistanceBagFaults, SaysWhereABagIsDamaged) {
   expectFault("--bag bad.bag", {"bad.bag: it is damaged", "s after the begin", "nothing was written"});
 }
 
+// rosbag's library follows every place that an index names.
+TEST_F(DistanceBagFaults, SaysThatABagHasEndedTheProcessThatReadsIt) {
+  writeMotion("run.bag");
+  std::string bag = content("run.bag");
+  constexpr std::size_t kToPlace = 4 + (4 + 8) + 4 + 8;  // op, the version, a length, a time
+  std::size_t count = 0;
+  for (std::size_t at = bag.find("op=\x04"); at != std::string::npos; at = bag.find("op=\x04", at + 1)) {
+    bag.replace(at + kToPlace, 4, "\xff\xff\xff\x7f");
+    ++count;
+  }
+  ASSERT_GT(count, 2U);
+  folder_.write("bad.bag", bag);
+  expectFault("--bag bad.bag", {"bad.bag: it is", "has ended the process that reads it", "rosbag reindex"});
+}
+
+// Messages that rosbag's library leaves out may not be missing in silence.
+TEST_F(DistanceBagFaults, RefusesABagWhoseMessagesHaveNoTime) {
+  writeMotion("run.bag");
+  std::string bag = content("run.bag");
+  const std::size_t index = bag.rfind("op=\x04");
+  ASSERT_NE(index, std::string::npos);
+  bag.replace(index + 4 + (4 + 8) + 4, 8, std::string(8, '\0'));
+  folder_.write("bad.bag", bag);
+  expectFault("--bag bad.bag", {"bad.bag: it is cut off or damaged", "invalid time", "rosbag reindex"});
+}
+
 TEST_F(DistanceBagFaults, NamesTopicsThatThereAreInstead) {
   {
     BagWriter writer(folder_.path("run.bag"));
