@@ -8,6 +8,7 @@
 
 #include "concave_distance/base/error.h"
 #include "number_text.h"
+#include "short_text.h"
 
 namespace concave_distance {
 namespace {
@@ -32,7 +33,7 @@ void splitLine(std::string_view line, std::vector<std::string_view>& cells) {
 double readNumber(std::string_view cell, const std::string& column, const std::string& where) {
   const std::optional<double> value = parseNumber(cell);
   if (!value) {
-    throw Error(where, "column " + column + " is '" + std::string(cell) + "'",
+    throw Error(where, "column " + shortText(column) + " is '" + shortText(std::string(cell)) + "'",
                 "write a number with a point, such as -0.25 or 1e-3");
   }
   return *value;
@@ -45,7 +46,7 @@ void readHeader(std::string_view line, const std::string& header, const std::str
   table.columns.assign(names.begin(), names.end());
   const std::string seen = joinedText(table.columns, ",");
   if (!header.empty() && seen != header && (other_header.empty() || seen != other_header)) {
-    throw Error(where, "the header is '" + std::string(trimmed(line)) + "'",
+    throw Error(where, "the header is '" + shortText(std::string(trimmed(line))) + "'",
                 "the first line has to be " + header);
   }
 }
@@ -86,8 +87,9 @@ CsvTable readCsv(const std::string& path, const std::string& header, const std::
     }
     splitLine(text, cells);
     if (cells.size() != table.columns.size()) {
-      throw Error(where, "it has " + std::to_string(cells.size()) + " cells",
-                  "write " + std::to_string(table.columns.size()) + ": " + joinedText(table.columns, ","));
+      throw Error(
+          where, "it has " + std::to_string(cells.size()) + " cells",
+          "write " + std::to_string(table.columns.size()) + ": " + shortText(joinedText(table.columns, ",")));
     }
     for (std::size_t i = 0; i < cells.size(); ++i) {
       table.values.push_back(readNumber(cells[i], table.columns[i], where));

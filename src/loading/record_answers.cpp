@@ -9,6 +9,7 @@
 
 #include "answer_lines.h"
 #include "base/number_text.h"
+#include "base/short_text.h"
 #include "concave_distance/base/error.h"
 #include "kinematics/wording.h"
 #include "scene/replay_pair.h"
@@ -16,14 +17,15 @@
 namespace concave_distance::detail {
 namespace {
 
+constexpr std::ptrdiff_t kMostColumns = 200;
 constexpr std::streamoff kMostText = 64'000'000;  // bytes of niches, after which no pose is answered
 
-/// One table, its cells as texts that lie in it.
+/// One table, its rows as texts that lie in it: a file of tiny cells would take gigabytes as cells.
 struct Table {
   struct Row {
     std::size_t line;  ///< of the file, from 1
     std::size_t index;
-    std::vector<std::string_view> cells;
+    std::string_view text;
   };
   std::vector<std::string_view> columns;
   std::vector<Row> rows;
@@ -54,25 +56,33 @@ bool isNumberCell(std::string_view cell) {
   throw Error(where, what, "the recording is damaged: ask for it once more, or mend the file");
 }
 
-void checkRow(const Table& table, const Table::Row& row, const std::string& where) {
-  if (row.cells.size() != table.columns.size()) {
-    failDamaged(where, "it has " + std::to_string(row.cells.size()) + " cells of " +
-                           std::to_string(table.columns.size()));
+std::vector<std::string_view> requireCells(const Table& table, std::string_view line,
+                                           const std::string& where) {
+  const auto count = static_cast<std::size_t>(std::count(line.begin(), line.end(), ',')) + 1;
+  if (count != table.columns.size()) {
+    failDamaged(where,
+                "it has " + std::to_string(count) + " cells of " + std::to_string(table.columns.size()));
   }
-  for (std::size_t i = 0; i < row.cells.size(); ++i) {
-    if (isOfWords(table.columns[i]) || isNumberCell(row.cells[i])) continue;
-    failDamaged(where, "column " + std::string(table.columns[i]) + " is '" + std::string(row.cells[i]) + "'");
+  std::vector<std::string_view> cells = cellsOf(line);
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    if (isOfWords(table.columns[i]) || isNumberCell(cells[i])) continue;
+    failDamaged(where, "column " + shortText(std::string(table.columns[i])) + " is '" +
+                           shortText(std::string(cells[i])) + "'");
   }
+  return cells;
 }
 
 std::size_t indexOf(std::string_view cell, std::size_t poses, const std::string& where) {
   const std::optional<double> index = parseNumber(cell);
   if (!index || !(*index >= 0.0) || !(*index < static_cast<double>(poses)) || *index != std::floor(*index))
-    failDamaged(where, "column index is '" + std::string(cell) + "', of " + std::to_string(poses) + " poses");
+    failDamaged(where, "column index is '" + shortText(std::string(cell)) + "', of " + std::to_string(poses) +
+                           " poses");
   return static_cast<std::size_t>(*index);
 }
 
-Table tableOf(std::string_view text, const std::string& path, std::size_t poses) {
+/// @param rows that there have to be, as `why` says
+Table tableOf(std::string_view text, const std::string& path, std::size_t poses, std::size_t rows,
+              const std::string& why) {
   Table table;
   for (std::size_t number = 1; !text.empty(); ++number) {
     const std::string where = path + ":" + std::to_string(number);
@@ -82,28 +92,28 @@ Table tableOf(std::string_view text, const std::string& path, std::size_t poses)
     text.remove_prefix(end + 1);
     if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
     if (number == 1) {
+      if (std::count(line.begin(), line.end(), ',') > kMostColumns)
+        failDamaged(where, "the columns are not those of a recording");
       table.columns = cellsOf(line);
       continue;
     }
-    Table::Row row{number, 0, cellsOf(line)};
-    checkRow(table, row, where);
-    row.index = indexOf(row.cells.front(), poses, where);
+    const Table::Row row{number, indexOf(requireCells(table, line, where).front(), poses, where), line};
     if (!table.rows.empty() && row.index < table.rows.back().index)
       failDamaged(where, "index " + std::to_string(row.index) + " comes after " +
                              std::to_string(table.rows.back().index));
-    table.rows.push_back(std::move(row));
+    if (table.rows.size() == rows)
+      failDamaged(where,
+                  "there are more lines below the header than " + std::to_string(rows) + ", as " + why);
+    table.rows.push_back(row);
   }
+  if (table.rows.size() != rows)
+    failDamaged(path, "it has " + counted(table.rows.size(), "line") + " below its header, " + why + " " +
+                          std::to_string(rows));
   return table;
 }
 
 std::string pathIn(const std::string& folder, const char* file) {
   return (std::filesystem::path(folder) / file).string();
-}
-
-void requireRows(const Table& table, std::size_t expected, const std::string& path, const std::string& why) {
-  if (table.rows.size() == expected) return;
-  failDamaged(path, "it has " + counted(table.rows.size(), "line") + " below its header, " + why + " " +
-                        std::to_string(expected));
 }
 
 struct Tables {
@@ -114,8 +124,8 @@ struct Tables {
 Tables tablesOf(const std::string& folder, const RecordAnswers& texts) {
   Tables tables;
   const std::string answers = pathIn(folder, kRecordAnswers);
-  tables.answers = tableOf(texts.answers, answers, texts.count);
-  requireRows(tables.answers, texts.count, answers, std::string(kRecordFile) + " says");
+  tables.answers =
+      tableOf(texts.answers, answers, texts.count, texts.count, std::string(kRecordFile) + " says");
   for (std::size_t i = 1; i < tables.answers.rows.size(); ++i) {
     const Table::Row& row = tables.answers.rows[i];
     if (row.index != i)
@@ -124,14 +134,14 @@ Tables tablesOf(const std::string& folder, const RecordAnswers& texts) {
   }
   if (texts.niches.empty()) return tables;
   const std::string niches = pathIn(folder, kRecordNiches);
-  tables.niches = tableOf(texts.niches, niches, texts.count);
   const auto& columns = tables.answers.columns;
   const auto column =
       static_cast<std::size_t>(std::find(columns.begin(), columns.end(), "niche_count") - columns.begin());
   double count = 0.0;
   for (const Table::Row& row : tables.answers.rows)
-    count += column < columns.size() ? parseNumber(row.cells[column]).value_or(0.0) : 0.0;
-  requireRows(tables.niches, static_cast<std::size_t>(std::clamp(count, 0.0, 1e15)), niches,
+    count += column < columns.size() ? parseNumber(cellsOf(row.text)[column]).value_or(0.0) : 0.0;
+  tables.niches =
+      tableOf(texts.niches, niches, texts.count, static_cast<std::size_t>(std::clamp(count, 0.0, 1e15)),
               std::string(kRecordAnswers) + " counts");
   return tables;
 }
@@ -187,15 +197,17 @@ class Comparison {
 
   void compareRow(const Table::Row& recorded, const Table::Row& now) {
     bool is_same = true;
-    for (std::size_t i = 0; i < std::min(recorded.cells.size(), now.cells.size()); ++i) {
-      if (recorded.cells[i] == now.cells[i]) continue;
+    const std::vector<std::string_view> before = cellsOf(recorded.text);
+    const std::vector<std::string_view> after = cellsOf(now.text);
+    for (std::size_t i = 0; i < std::min(before.size(), after.size()); ++i) {
+      if (before[i] == after[i]) continue;
       is_same = false;
       const std::string column(recorded_.columns[i]);
       const std::string where = path_ + ":" + std::to_string(recorded.line) + ": " + column;
-      note(where + " is " + shown(now.cells[i]) + ", recorded: " + shown(recorded.cells[i]));
+      note(where + " is " + shown(after[i]) + ", recorded: " + shown(before[i]));
       if (isOfWords(column)) continue;
-      const double gap = std::abs(parseNumber(now.cells[i]).value_or(std::nan("")) -
-                                  parseNumber(recorded.cells[i]).value_or(std::nan("")));
+      const double gap = std::abs(parseNumber(after[i]).value_or(std::nan("")) -
+                                  parseNumber(before[i]).value_or(std::nan("")));
       if (!(gap > difference_.largest)) continue;
       difference_.largest = gap;
       difference_.largest_where = where;

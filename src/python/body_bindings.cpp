@@ -19,6 +19,7 @@
 #include "pose_arrays.h"
 #include "python_body.h"
 #include "text.h"
+#include "unlocked.h"
 
 namespace concave_distance::python {
 namespace {
@@ -64,7 +65,7 @@ TriangleSoup soupOf(const py::object& vertices, const py::object& triangles) {
 PythonBody makeBody(const py::object& vertices, const py::object& triangles, const std::string& name,
                     double weld_tolerance, bool orient) {
   const TriangleSoup soup = soupOf(vertices, triangles);
-  const py::gil_scoped_release unlocked;
+  const Unlocked unlocked;
   RepairOptions options;
   options.weld_tolerance = weld_tolerance;
   options.orient = orient;
@@ -183,8 +184,7 @@ void bindBodies(py::module_& module) {
           "Number of connected surfaces.")
       .def_readonly("repair", &PythonBody::repair, "RepairReport of loading it.");
   module.def("load_body", &loadBody, py::arg("path"), py::arg("scale") = 1.0, py::kw_only(),
-             py::arg("max_edge_length") = py::none(), py::arg("cache") = "",
-             py::call_guard<py::gil_scoped_release>(),
+             py::arg("max_edge_length") = py::none(), py::arg("cache") = "", py::call_guard<Unlocked>(),
              "Reads a mesh file (.stl, .obj, .ply, .dae), repairs it and makes it ready for queries.\n\n"
              "scale: factor on the file's coordinates, 0.001 for millimetres\n"
              "max_edge_length: of the search's grid, metres; None: automatic\n"

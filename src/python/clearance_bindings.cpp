@@ -18,6 +18,7 @@
 #include "python_scene.h"
 #include "signal_check.h"
 #include "tracking/rigid_pose.h"
+#include "unlocked.h"
 
 namespace concave_distance::python {
 namespace {
@@ -103,7 +104,7 @@ std::function<void(const ClearanceProgress&)> callOf(const py::object& progress,
                                                      std::exception_ptr& problem) {
   if (progress.is_none()) return nullptr;
   return [function = py::handle(progress), &stop, &problem](const ClearanceProgress& now) {
-    if (problem) return;
+    if (problem || isInterpreterEnding()) return;
     const py::gil_scoped_acquire lock;
     try {
       function(now.fraction, now.distance, now.lower_bound, now.queries);
@@ -123,7 +124,7 @@ PythonClearance find(const PythonScene& scene, const Motion& motion, const Surro
   options.parameters.stop = &stop;
   options.parameters.progress = callOf(options.progress, stop, problem);
   ClearanceResult result;
-  const py::gil_scoped_release unlocked;
+  const Unlocked unlocked;
   runWatched([&] { result = findClearance(scene.scene, *scene.joints, state, motion, options.parameters); },
              stop);
   if (problem) std::rethrow_exception(problem);

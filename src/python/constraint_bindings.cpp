@@ -16,6 +16,7 @@
 #include "concave_distance/kinematics/constraint_rows.h"
 #include "joint_positions.h"
 #include "python_scene_tracker.h"
+#include "unlocked.h"
 
 namespace concave_distance::python {
 namespace {
@@ -128,7 +129,7 @@ class PythonRows {
     const JointPositions given(*scene_, positions, roots);
     if (given.isArray())
       throw Error("positions", "there are several rows of them", "give (p,): those of the cycle");
-    const py::gil_scoped_release unlocked;
+    const Unlocked unlocked;
     const std::lock_guard<std::mutex> turn(mutex_);
     tracker.withLastCycle([&](const SceneTracker::Pairs& pairs, const PythonSceneTracker::Cycle& cycle) {
       if (cycle.world_from_body.empty())
@@ -144,7 +145,7 @@ class PythonRows {
     return Constraints(rows_);
   }
   void reset() {
-    const py::gil_scoped_release unlocked;
+    const Unlocked unlocked;
     const std::lock_guard<std::mutex> turn(mutex_);
     rows_.reset();
   }
@@ -238,8 +239,8 @@ void bindRows(py::module_& module) {
                          "changes with the joints of all robots. A row keeps its slot while its niche lives. "
                          "It may be used from any "
                          "thread; calls wait for each other.")
-      .def(py::init<ScenePointer, double, std::uint32_t, double>(), py::arg("scene"), py::kw_only(),
-           py::arg("distance") = ConstraintSettings().distance,
+      .def(py::init<ScenePointer, double, std::uint32_t, double>(), py::arg("scene").none(false),
+           py::kw_only(), py::arg("distance") = ConstraintSettings().distance,
            py::arg("capacity") = ConstraintSettings().capacity, py::arg("tilt") = ConstraintSettings().tilt,
            "distance: metres; niches within it have rows\n"
            "capacity: number of slots; with more rows than that the farthest have none\n"

@@ -1,11 +1,13 @@
 #include "base/versions.h"
 #include "bindings.h"
+#include "unlocked.h"
 
 PYBIND11_MODULE(_concave_distance, module) {
   namespace py = pybind11;
   using namespace concave_distance::python;
   module.doc() = "What the package concave_distance gives its users; import that.";
   module.attr("__version__") = concave_distance::packageVersion();
+  watchEndOfInterpreter();
   bindError(module);
   bindEnums(module);
   bindAnswers(module);

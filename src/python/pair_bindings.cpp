@@ -18,6 +18,7 @@
 #include "pose_arrays.h"
 #include "python_body.h"
 #include "signal_check.h"
+#include "unlocked.h"
 
 namespace concave_distance::python {
 namespace {
@@ -63,14 +64,14 @@ class PythonPair {
     return answer(given, [&](std::size_t i) { tracker_.solve(given[i].pose, solution_); });
   }
   void restart() {
-    const py::gil_scoped_release unlocked;
+    const Unlocked unlocked;
     const std::lock_guard<std::mutex> turn(mutex_);
     tracker_.restart();
   }
   py::dict parameters() { return valuesOf(currentParameters()); }
   void setParameters(const py::kwargs& keywords) {
     const TrackerParameters parameters = parametersFor(a_, b_, currentParameters(), keywords);
-    const py::gil_scoped_release unlocked;
+    const Unlocked unlocked;
     const std::lock_guard<std::mutex> turn(mutex_);
     tracker_.setParameters(parameters);
   }
@@ -79,13 +80,13 @@ class PythonPair {
 
  private:
   TrackerParameters currentParameters() {
-    const py::gil_scoped_release unlocked;
+    const Unlocked unlocked;
     const std::lock_guard<std::mutex> turn(mutex_);
     return tracker_.parameters();
   }
   template <typename SolveOne>
   Answers answer(const std::vector<GivenPose>& poses, const SolveOne& solve_one) {
-    const py::gil_scoped_release unlocked;
+    const Unlocked unlocked;
     const std::lock_guard<std::mutex> turn(mutex_);
     Answers answers;
     answers.rows.reserve(poses.size());
@@ -110,7 +111,7 @@ Answers solveEachOf(const PythonBody& a, const PythonBody& b, const py::object& 
                     const std::string& name, std::uint32_t threads, const py::kwargs& keywords) {
   const std::vector<GivenPose> given = readPoses(poses, "poses");
   const TrackerParameters parameters = parametersFor(a, b, {}, keywords);
-  const py::gil_scoped_release unlocked;
+  const Unlocked unlocked;
   // So many solutions at a time, with their niches, are held besides the answers; signals are looked for
   // between.
   constexpr std::size_t kLargestBatch = 1024;

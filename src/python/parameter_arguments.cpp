@@ -2,12 +2,15 @@
 
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <variant>
 #include <vector>
 
 #include "base/number_text.h"
 #include "base/parameter.h"
+#include "base/short_text.h"
 #include "concave_distance/base/error.h"
+#include "text.h"
 #include "tracking/tracker_parameter_table.h"
 
 namespace concave_distance::python {
@@ -26,7 +29,7 @@ const ParameterTable<TrackerParameters>& parametersOf(Keywords allowed) {
 }
 
 [[noreturn]] void refuse(const ParameterInfo& info, py::handle value, const std::string& where) {
-  throw Error(where + "." + info.name, "the value is " + py::repr(value).cast<std::string>(),
+  throw Error(where + "." + info.name, "the value is " + shortText(py::repr(value).cast<std::string>()),
               "allowed: " + allowedValues(info));
 }
 
@@ -46,7 +49,11 @@ ParameterValue countOf(const ParameterInfo& info, py::handle value, const std::s
 
 ParameterValue valueOf(const ParameterInfo& info, py::handle value, const std::string& where) {
   if (value.is_none() && info.type == ParameterType::Number && !info.word.empty()) return info.word;
-  if (py::isinstance<py::str>(value)) return value.cast<std::string>();
+  if (py::isinstance<py::str>(value)) {
+    const std::optional<std::string> text = toUtf8(value);
+    if (!text) refuse(info, value, where);
+    return *text;
+  }
   const bool is_flag = info.type == ParameterType::Flag;
   if (PyBool_Check(value.ptr()) != 0 ||
       py::str(py::type::of(value).attr("__name__")).equal(py::str("bool_"))) {
@@ -79,7 +86,7 @@ void setParameters(const py::kwargs& keywords, Keywords allowed, const std::stri
                    TrackerParameters& parameters) {
   const ParameterTable<TrackerParameters>& table = parametersOf(allowed);
   for (const auto& [key, value] : keywords) {
-    const auto name = py::str(key).cast<std::string>();
+    const std::string name = toUtf8(key).value_or("?");
     const Parameter<TrackerParameters>* parameter = findParameter(table, name);
     if (parameter == nullptr) {
       std::vector<std::string> names;

@@ -9,6 +9,7 @@
 #include "concave_distance/base/error.h"
 #include "signal_check.h"
 #include "tracking/rigid_pose.h"
+#include "unlocked.h"
 
 namespace concave_distance::python {
 
@@ -37,7 +38,7 @@ PairDemand demandOf(bool niches) {
 
 PythonSceneTracker::PythonSceneTracker(ScenePointer scene, std::uint32_t threads)
     : scene_(std::move(scene)), threads_(threads), tracker_(SceneTrackerOptions{threads, &stop_, false}) {
-  const py::gil_scoped_release unlocked;
+  const Unlocked unlocked;
   tracker_.setScene(scene_->scene);
 }
 
@@ -45,7 +46,7 @@ SceneAnswers PythonSceneTracker::update(const py::object& poses, double time, bo
   const GivenPoses given = readPoses(poses, "poses", 1);
   requireBodies(given, 1, scene_->scene.bodies.size());
   Cycle next{bodyPoses(given.poses.data()), time};
-  const py::gil_scoped_release unlocked;
+  const Unlocked unlocked;
   const std::lock_guard<std::mutex> turn(mutex_);
   requireLater(time);
   cycle_ = std::move(next);
@@ -58,7 +59,7 @@ std::vector<NearestRow> PythonSceneTracker::nearest(const py::object& poses) {
   const std::size_t bodies = scene_->scene.bodies.size();
   requireBodies(given, 2, bodies);
   std::vector<NearestRow> rows(given.shape.front());
-  const py::gil_scoped_release unlocked;
+  const Unlocked unlocked;
   const std::lock_guard<std::mutex> turn(mutex_);
   runWatched(
       [&] {
@@ -77,7 +78,7 @@ std::vector<NearestRow> PythonSceneTracker::nearest(const py::object& poses) {
 }
 
 void PythonSceneTracker::restart() {
-  const py::gil_scoped_release unlocked;
+  const Unlocked unlocked;
   const std::lock_guard<std::mutex> turn(mutex_);
   tracker_.restart();
   cycle_ = {};

@@ -4,12 +4,15 @@
 
 #include <future>
 
+#include "unlocked.h"
+
 namespace concave_distance::python {
 namespace {
 
 constexpr std::chrono::milliseconds kBetweenChecks{100};
 
 void checkSignals() {
+  sleepWhereInterpreterEnds();
   const pybind11::gil_scoped_acquire lock;
   if (PyErr_CheckSignals() != 0) throw pybind11::error_already_set();
 }
@@ -26,6 +29,10 @@ void SignalCheck::operator()() {
 void runWatched(const std::function<void()>& work, std::atomic<bool>& stop) {
   std::future<void> done = std::async(std::launch::async, work);
   while (done.wait_for(kBetweenChecks) != std::future_status::ready) {
+    if (isInterpreterEnding()) {
+      stop = true;
+      done.wait();
+    }
     try {
       checkSignals();
     } catch (...) {

@@ -17,7 +17,7 @@ void bindSceneTracker(py::module_& module) {
       module, "SceneTracker",
       "A scene over time: finds the near pairs and solves them in parallel. It may be used "
       "from any thread; calls wait for each other.")
-      .def(py::init<ScenePointer, std::uint32_t>(), py::arg("scene"), py::arg("threads") = 0,
+      .def(py::init<ScenePointer, std::uint32_t>(), py::arg("scene").none(false), py::arg("threads") = 0,
            "threads: that solve pairs; 0: one per core.")
       .def("update", &PythonSceneTracker::update, py::arg("poses"), py::arg("time"), py::kw_only(),
            py::arg("niches_wanted") = true,

@@ -77,6 +77,7 @@ class Bodies(unittest.TestCase):
                 ("vertices", "(n, 3)", lambda: cd.make_body([1, 2, 3], corners)),
                 ("PairTracker", "'acuracy'", lambda: cd.PairTracker(box, box, acuracy="nodes")),
                 ("PairTracker.accuracy", "'exact'", lambda: cd.PairTracker(box, box, accuracy="exact")),
+                ("PairTracker.accuracy", "ud800", lambda: cd.PairTracker(box, box, accuracy="\ud800")),
                 ("PairTracker.seed", "-1", lambda: cd.PairTracker(box, box, seed=-1)),
                 ("PairTracker.cutoff", "True", lambda: cd.PairTracker(box, box, cutoff=True)),
                 ("PairTracker.hidden", "1", lambda: cd.PairTracker(box, box, hidden=1)),
@@ -353,6 +354,27 @@ class Threads(unittest.TestCase):
         with self.assertRaises(KeyboardInterrupt):
             tracker.solve(np.tile([0.0, 0, 0.3, 0, 0, 0, 1], (100000, 1)))
         timer.join()
+
+    def test_a_program_may_end_while_threads_solve(self):
+        """As one with callbacks of ROS does: its threads do not hold it up."""
+        for call in ("tracker.solve(poses)", "tracker.update(poses)", "cd.solve_each(box, ball, poses)"):
+            program = """
+import threading
+import concave_distance as cd
+import numpy as np
+box, ball = cd.make_box((1, 1, 1)), cd.make_sphere(0.5)
+poses = np.tile([2.0, 0, 0, 0, 0, 0, 1], (1000000, 1))
+poses[:, 1] = np.linspace(0, 1, 1000000)
+began = threading.Event()
+def solve():
+    tracker = cd.PairTracker(box, ball)
+    began.set()
+    %s
+threading.Thread(target=solve, daemon=True).start()
+began.wait()
+""" % call
+            ended = subprocess.run([sys.executable, "-c", program], stderr=subprocess.PIPE, timeout=120, check=False)
+            self.assertEqual((ended.returncode, ended.stderr), (0, b""), call)
 
 
 if __name__ == "__main__":

@@ -23,7 +23,7 @@ struct BagMoment {
   std::unordered_set<std::string> frames;  ///< that have a transform of it
 };
 
-/// Counts what the rules of the node refuse of a bag.
+/// Holds what of a bag the node's rules refuse.
 struct BagRefusals {
   static constexpr std::size_t kMostReasons = 10;
   std::uint64_t count = 0;  ///< of transforms, and of messages that are none

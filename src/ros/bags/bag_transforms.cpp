@@ -1,122 +1,35 @@
 #include "bag_transforms.h"
 
+#include <fcntl.h>
 #include <ros/serialization.h>
-#include <rosbag/bag.h>
-#include <rosbag/view.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
 #include <tf2_msgs/TFMessage.h>
+#include <unistd.h>
 
 #include <algorithm>
-#include <deque>
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <cstdint>
+#include <cstdio>
+#include <cstring>
 #include <exception>
-#include <filesystem>
-#include <fstream>
-#include <set>
+#include <new>
+#include <system_error>
 
-#include "base/log_throttle.h"
+#include "bag_reader.h"
 #include "base/number_text.h"
 #include "concave_distance/base/error.h"
-#include "kinematics/frame_name.h"
 #include "ros/time_difference.h"
 
 namespace concave_distance {
 namespace {
 
-constexpr std::size_t kHeadLength = 4200;  // bytes; the record behind the first line is padded to 4096
 // Without its texts a TransformStamped has 3 lengths, a sequence number, a stamp and 7 doubles.
 constexpr std::size_t kLeastTransformLength = 80;
-
-std::string headOf(const std::string& path) {
-  std::error_code failure;
-  if (!std::filesystem::exists(path, failure)) {
-    throw Error(path, "there is no such bag", "check its name");
-  }
-  if (!std::filesystem::is_regular_file(path, failure)) {
-    throw Error(path, "it is no file", "name a bag, as rosbag record writes it");
-  }
-  std::ifstream file(path, std::ios::binary);
-  std::string head(kHeadLength, '\0');
-  file.read(head.data(), static_cast<std::streamsize>(head.size()));
-  if (file.bad() || !file.is_open()) throw Error(path, "it cannot be read", "check its permissions");
-  head.resize(static_cast<std::size_t>(file.gcount()));
-  return head;
-}
-
-// The name of the plugin that a bag was encrypted with; empty when it was not.
-std::string encryptorOf(const std::string& head) {
-  const std::string field = "encryptor=";
-  const std::size_t begin = head.find(field);
-  if (begin == std::string::npos) return "";
-  const std::size_t name = begin + field.size();
-  const auto is_of_name = [](char c) {
-    return c == '/' || c == '_' || std::isalnum(static_cast<unsigned char>(c));
-  };
-  std::size_t end = name;
-  while (end < head.size() && is_of_name(head[end])) ++end;
-  return head.substr(name, end - name);
-}
-
-void openBag(const std::string& path, rosbag::Bag& bag) {
-  const std::string head = headOf(path);
-  if (head.rfind("#ROSBAG V", 0) != 0) {
-    throw Error(path, "it is no bag of ROS 1", "name a bag, as rosbag record writes it");
-  }
-  const std::string encryptor = encryptorOf(head);
-  try {
-    bag.open(path, rosbag::bagmode::Read);
-  } catch (const rosbag::BagUnindexedException&) {
-    throw Error(path, "it has no index: its recording was not ended", "rosbag reindex " + path);
-  } catch (const std::exception& problem) {
-    if (!encryptor.empty()) {
-      throw Error(
-          path, "it is encrypted by " + encryptor + " and cannot be opened: " + problem.what(),
-          "import the key with gpg, or decrypt the bag where it is: rosbag encrypt -p rosbag/NoEncryptor");
-    }
-    throw Error(path, std::string("it is cut off or damaged: ") + problem.what(), "rosbag reindex " + path);
-  }
-}
-
-bool isOneOf(const std::vector<std::string>& topics, const std::string& topic) {
-  return std::any_of(topics.begin(), topics.end(), [&](const std::string& wanted) {
-    return withoutLeadingSlash(wanted) == withoutLeadingSlash(topic);
-  });
-}
-
-bool isOfTf(const rosbag::ConnectionInfo& connection) {
-  return connection.md5sum == ros::message_traits::MD5Sum<tf2_msgs::TFMessage>::value();
-}
-
-std::string quotedNames(const std::set<std::string>& names) {
-  return names.empty() ? "none" : joinedText({names.begin(), names.end()}, ", ");
-}
-
-void requireTopics(const BagSelection& selection, const std::vector<const rosbag::ConnectionInfo*>& all) {
-  const std::string where = joinedText(selection.paths, ", ");
-  std::set<std::string> of_tf;
-  std::set<std::string> found;
-  for (const rosbag::ConnectionInfo* connection : all) {
-    const std::string& topic = connection->topic;
-    if (isOfTf(*connection)) of_tf.insert(topic);
-    if (!isOneOf(selection.moving_topics, topic) && !isOneOf(selection.fixed_topics, topic)) continue;
-    if (!isOfTf(*connection)) {
-      throw Error(where,
-                  "its topic " + printable(topic) + " has the type " + printable(connection->datatype) +
-                      ", which is not tf2_msgs/TFMessage",
-                  "name tf's topics with --tf-topic and --tf-static-topic; of that type there are: " +
-                      quotedNames(of_tf));
-    }
-    found.insert(withoutLeadingSlash(topic));
-  }
-  std::vector<std::string> wanted = selection.moving_topics;
-  wanted.insert(wanted.end(), selection.fixed_topics.begin(), selection.fixed_topics.end());
-  std::vector<std::string> missing;
-  for (const std::string& topic : wanted) {
-    if (found.count(withoutLeadingSlash(topic)) == 0) missing.push_back(topic);
-  }
-  if (missing.empty() || (!selection.are_topics_given && missing.size() < wanted.size())) return;
-  throw Error(where, "there is no message on " + joinedText(missing, " or "),
-              "name tf's topics with --tf-topic and --tf-static-topic; topics of type tf2_msgs/TFMessage: " +
-                  quotedNames(of_tf));
-}
+constexpr rlim_t kMostMemory = 4'000'000'000;  // bytes of addresses of the process that reads
 
 // Why the bytes are no TFMessage; else fills the transforms.
 std::string parse(std::vector<std::uint8_t>& bytes,
@@ -136,97 +49,203 @@ std::string parse(std::vector<std::uint8_t>& bytes,
   return "";
 }
 
+/// Numbers and texts through a pipe, between two processes of one program.
+class Pipe {
+ public:
+  enum Kind : std::uint8_t { kOpened, kMessage, kEnd, kError };
+
+  Pipe(int descriptor, const char* mode) : file_(fdopen(descriptor, mode)) {
+    if (file_ == nullptr) throw std::system_error(errno, std::generic_category(), "a pipe");
+  }
+  ~Pipe() { std::fclose(file_); }
+  Pipe(const Pipe&) = delete;
+  Pipe& operator=(const Pipe&) = delete;
+
+  template <typename Number>
+  void put(Number number) {
+    std::fwrite(&number, sizeof number, 1, file_);
+  }
+  template <typename Bytes>
+  void putBytes(const Bytes& bytes) {
+    put(static_cast<std::uint64_t>(bytes.size()));
+    std::fwrite(bytes.data(), 1, bytes.size(), file_);
+  }
+  /// False where nobody reads.
+  bool isWhole() const { return std::ferror(file_) == 0; }
+
+  /// False at the end.
+  template <typename Number>
+  bool get(Number& number) {
+    return std::fread(&number, sizeof number, 1, file_) == 1;
+  }
+  template <typename Bytes>
+  bool getBytes(Bytes& bytes) {
+    std::uint64_t size = 0;
+    if (!get(size)) return false;
+    bytes.resize(size);
+    return std::fread(bytes.data(), 1, size, file_) == size;
+  }
+
+ private:
+  std::FILE* file_;
+};
+
+void sendError(const Error& error, Pipe& pipe) {
+  pipe.put(Pipe::kError);
+  for (const std::string& text : {error.where(), error.whatIsWrong(), error.remedy()}) pipe.putBytes(text);
+}
+
+// All that the process does that reads. Its signals are left to the one that waits for it.
+void serve(const BagSelection& selection, Pipe& pipe) {
+  const std::string where = joinedText(selection.paths, ", ");
+  try {
+    BagReader reader(selection);
+    pipe.put(Pipe::kOpened);
+    for (const ros::Time time : {reader.begin(), reader.end()}) pipe.put(time.toNSec());
+    for (BagRecord record; pipe.isWhole() && reader.next(record);) {
+      pipe.put(Pipe::kMessage);
+      pipe.put(record.time.toNSec());
+      pipe.put(record.fixed);
+      pipe.putBytes(record.sender);
+      pipe.putBytes(record.bytes);
+    }
+    pipe.put(Pipe::kEnd);
+  } catch (const Error& error) {
+    sendError(error, pipe);
+  } catch (const std::bad_alloc&) {
+    sendError(Error(where, "a part of it takes too much memory", kReindex), pipe);
+  } catch (const std::exception& error) {
+    sendError(Error(where, std::string("it is cut off or damaged: ") + error.what(), kReindex), pipe);
+  }
+}
+
+void limitMemory() {
+#ifndef __SANITIZE_ADDRESS__
+  rlimit limit{};
+  getrlimit(RLIMIT_AS, &limit);
+  limit.rlim_cur = std::min(limit.rlim_cur, kMostMemory);
+  setrlimit(RLIMIT_AS, &limit);
+#endif
+}
+
+ros::Time timeOf(std::uint64_t nanoseconds) {
+  ros::Time time;
+  return time.fromNSec(nanoseconds);
+}
+
 }  // namespace
 
-struct BagTransforms::Bags {
-  explicit Bags(const BagSelection& chosen) : selection(chosen) {}
+struct BagTransforms::Reader {
+  explicit Reader(const BagSelection& selection) : where(joinedText(selection.paths, ", ")) {
+    std::array<int, 2> ends{};
+    if (pipe2(ends.data(), O_CLOEXEC) != 0) throw std::system_error(errno, std::generic_category(), "a pipe");
+    const pid_t parent = getpid();
+    pid = fork();
+    if (pid == 0) {
+      prctl(PR_SET_PDEATHSIG, SIGKILL);
+      if (getppid() != parent) _exit(1);
+      std::signal(SIGINT, SIG_IGN);
+      std::signal(SIGTERM, SIG_IGN);
+      close(ends[0]);
+      limitMemory();
+      {
+        Pipe output(ends[1], "wb");
+        serve(selection, output);
+      }
+      _exit(0);
+    }
+    close(ends[1]);
+    if (pid < 0) {
+      close(ends[0]);
+      throw std::system_error(errno, std::generic_category(), "a process that reads the bag");
+    }
+    input = std::make_unique<Pipe>(ends[0], "rb");
+  }
+  ~Reader() {
+    input.reset();
+    end();
+  }
+  Reader(const Reader&) = delete;
+  Reader& operator=(const Reader&) = delete;
 
-  const BagSelection selection;
-  std::deque<rosbag::Bag> files;
-  rosbag::View before;  ///< static transforms before the start
-  rosbag::View played;
-  rosbag::View::iterator place;
-  bool is_before = true;
+  /// Ends the process, if it has not ended, and returns its status.
+  int end() {
+    int status = 0;
+    if (pid <= 0) return status;
+    kill(pid, SIGKILL);
+    while (waitpid(pid, &status, 0) < 0 && errno == EINTR) {
+    }
+    pid = -1;
+    return status;
+  }
+
+  [[noreturn]] void fail() {
+    const int status = end();
+    const std::string how = WIFSIGNALED(status) ? strsignal(WTERMSIG(status)) : "an exit";
+    const std::string begin_text =
+        is_open ? damagedAt(secondsBetween(begin, last)) : std::string("it is cut off or damaged: ");
+    throw Error(where, begin_text + "what stands there has ended the process that reads it (" + how + ")",
+                is_open ? kReindex : "rosbag reindex " + where);
+  }
+
+  Pipe::Kind nextKind() {
+    Pipe::Kind kind = Pipe::kEnd;
+    if (!input->get(kind)) fail();
+    if (kind != Pipe::kError) return kind;
+    std::array<std::string, 3> texts;
+    for (std::string& text : texts) {
+      if (!input->getBytes(text)) fail();
+    }
+    throw Error(texts[0], texts[1], texts[2]);
+  }
+
+  ros::Time nextTime() {
+    std::uint64_t nanoseconds = 0;
+    if (!input->get(nanoseconds)) fail();
+    return timeOf(nanoseconds);
+  }
+
+  std::string where;
+  pid_t pid = -1;
+  std::unique_ptr<Pipe> input;
+  bool is_open = false;
   ros::Time begin;
-  ros::Time end;
+  ros::Time end_time;
   ros::Time last;
   std::vector<std::uint8_t> bytes;
 };
 
-BagTransforms::BagTransforms(const BagSelection& selection) : bags_(std::make_unique<Bags>(selection)) {
-  rosbag::View whole;
-  for (const std::string& path : selection.paths) {
-    openBag(path, bags_->files.emplace_back());
-    whole.addQuery(bags_->files.back());
-  }
-  requireTopics(selection, whole.getConnections());
-  const ros::Time begin = whole.getBeginTime();
-  const ros::Time end = whole.getEndTime();
-  const double length = secondsBetween(begin, end);
-  if (selection.start > length) {
-    throw Error("--start", "it is " + numberText(selection.start) + " s, behind the end",
-                "the bags last " + numberText(length, 9) + " s");
-  }
-  bags_->begin = begin + ros::Duration(selection.start);
-  bags_->end = selection.duration && *selection.duration < length - selection.start
-                   ? bags_->begin + ros::Duration(*selection.duration)
-                   : end;
-  const auto is_fixed = [this](const rosbag::ConnectionInfo* connection) {
-    return isOneOf(bags_->selection.fixed_topics, connection->topic);
-  };
-  const auto is_wanted = [this, is_fixed](const rosbag::ConnectionInfo* connection) {
-    return is_fixed(connection) || isOneOf(bags_->selection.moving_topics, connection->topic);
-  };
-  for (const rosbag::Bag& file : bags_->files) {
-    if (selection.start > 0.0) {
-      bags_->before.addQuery(file, is_fixed, ros::TIME_MIN, bags_->begin - ros::Duration(0, 1));
-    }
-    bags_->played.addQuery(file, is_wanted, bags_->begin, bags_->end);
-  }
-  bags_->last = bags_->begin;
-  bags_->place = bags_->before.begin();
+BagTransforms::BagTransforms(const BagSelection& selection) : reader_(std::make_unique<Reader>(selection)) {
+  reader_->nextKind();
+  reader_->begin = reader_->last = reader_->nextTime();
+  reader_->end_time = reader_->nextTime();
+  reader_->is_open = true;
 }
 
 BagTransforms::~BagTransforms() = default;
 
 ros::Time BagTransforms::begin() const {
-  return bags_->begin;
+  return reader_->begin;
 }
 
 ros::Time BagTransforms::end() const {
-  return bags_->end;
+  return reader_->end_time;
 }
 
 bool BagTransforms::next(BagMessage& message) {
-  Bags& bags = *bags_;
+  Reader& reader = *reader_;
+  if (reader.nextKind() == Pipe::kEnd) return false;
+  message.time = reader.last = reader.nextTime();
+  if (!reader.input->get(message.fixed) || !reader.input->getBytes(message.sender) ||
+      !reader.input->getBytes(reader.bytes))
+    reader.fail();
+  message.transforms.clear();
   try {
-    if (bags.is_before && bags.place == bags.before.end()) {
-      bags.is_before = false;
-      bags.place = bags.played.begin();
-    }
-    if (!bags.is_before && bags.place == bags.played.end()) return false;
-    const rosbag::MessageInstance& found = *bags.place;
-    message.time = bags.last = bags.is_before ? bags.begin : found.getTime();
-    message.fixed = isOneOf(bags.selection.fixed_topics, found.getTopic());
-    // A message that a program wrote has no sender.
-    message.sender = printable(found.getCallerId().empty() ? found.getTopic() : found.getCallerId());
-    message.transforms.clear();
-    bags.bytes.resize(found.size());
-    ros::serialization::OStream stream(bags.bytes.data(), static_cast<std::uint32_t>(bags.bytes.size()));
-    found.write(stream);
-    try {
-      message.problem = parse(bags.bytes, message.transforms);
-    } catch (const std::exception& problem) {
-      message.problem = problem.what();
-    }
-    if (!message.problem.empty()) message.transforms.clear();
-    ++bags.place;
+    message.problem = parse(reader.bytes, message.transforms);
   } catch (const std::exception& problem) {
-    throw Error(joinedText(bags.selection.paths, ", "),
-                "it is damaged " + fixedText(secondsBetween(bags.begin, bags.last), 3) +
-                    " s after the begin of what is played: " + problem.what(),
-                "rosbag reindex keeps what is whole; nothing was written");
+    message.problem = problem.what();
   }
+  if (!message.problem.empty()) message.transforms.clear();
   return true;
 }
 

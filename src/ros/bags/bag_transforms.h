@@ -30,7 +30,8 @@ struct BagMessage {
 };
 
 /// Reads the messages of tf from bags, in the order of their recording. What is static and was recorded
-/// before the start comes first, as `rosbag play` publishes it.
+/// before the start comes first, as `rosbag play` publishes it. The bags are read by a process of their own,
+/// which a damaged one may end. The constructor forks: no other thread may run.
 class BagTransforms {
  public:
   /// @throws Error for a bag that cannot be read, has no index or none of the topics, for a topic of another
@@ -47,8 +48,8 @@ class BagTransforms {
   ros::Time end() const;
 
  private:
-  struct Bags;
-  std::unique_ptr<Bags> bags_;
+  struct Reader;
+  std::unique_ptr<Reader> reader_;
 };
 
 }  // namespace concave_distance

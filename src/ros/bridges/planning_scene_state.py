@@ -212,6 +212,8 @@ class PlanningSceneState:
                     return  # It has been attached already.
                 raise Refused("it has no shapes, and no object of the world has its name; give shapes")
             made = self.world[message.id]
+        elif not message.shapes and not message.fault:
+            raise Refused("it has no shapes; give primitives, meshes or planes")
         else:
             frame, frame_pose = item.link, IDENTITY
             if message.frame != item.link:

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from typing import Dict, Optional, Tuple
 
 ADD, REMOVE, APPEND, MOVE = 0, 1, 2, 3
+_SHORTEST_NORMAL = 1e-100  # squares of shorter ones are 0
 OCTOMAP = "<octomap>"  # The name that MoveIt reserves for the octomap of the world.
 
 
@@ -106,6 +107,9 @@ def require_shape(shape):
     elif shape.kind == "plane":
         if not any(shape.numbers[:3]):
             raise Unserved("a plane has the normal 0 0 0")
+        length = math.hypot(*shape.numbers[:3])
+        if not _SHORTEST_NORMAL <= length <= 1.0 / _SHORTEST_NORMAL:
+            raise Unserved("a plane has a normal of length %g; give one of length 1" % length)
     elif shape.kind == "mesh":
         if not shape.triangles:
             raise Unserved("a mesh has no triangle")

@@ -24,12 +24,13 @@ class RegisteredObstacles:
         self._problems = problems
         self._node = DistanceNodeClient(distance_node, prefix, problems, check_period)
         self._queue = collections.deque(maxlen=1000)
+        self._ids = {}  # of obstacles by their bodies' names
         self._header = self._class = self._reader = None
         self._subscriber = rospy.Subscriber(topic, rospy.AnyMsg, self._queue.append, buff_size=1 << 24)
 
     def id_of(self, body):
         """What an obstacle was registered as, or the body's name."""
-        return next((name for name in list(self._state.world) if self._names.body(name) == body), body)
+        return self._ids.get(body, body)
 
     def update(self):
         while self._queue:
@@ -70,3 +71,4 @@ class RegisteredObstacles:
                 header.get("callerid"), problem))
             return
         self._state.use(SceneMessage(objects=(item,)))
+        self._ids = {self._names.body(name): name for name in self._state.world}

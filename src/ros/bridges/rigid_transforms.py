@@ -12,9 +12,12 @@ def is_finite(pose):
 def normalized(pose):
     """The pose with a unit quaternion; one of zeros means no rotation, as in MoveIt. NaN stays NaN."""
     position, rotation = pose
-    length = math.sqrt(sum(number * number for number in rotation))
+    length = math.hypot(*rotation)
     if length == 0.0:
         return (position, IDENTITY[1])
+    if math.isinf(length):
+        rotation = tuple(0.25 * number for number in rotation)
+        length = math.hypot(*rotation)
     return (position, tuple(number / length for number in rotation))
 
 

@@ -162,9 +162,11 @@ def wanted_contacts(state, names, bodies, others):
     if listed:
         start = len(names.link_prefix)
         everything = list(by_name) + [one[start:] for one in others if one.startswith(names.link_prefix)]
+        present = [(other, body(other)) for other in everything if body(other)]
         for name in listed:
-            allowed.update(tuple(sorted((body(name), body(other)))) for other in everything
-                           if other != name and body(other) and contacts.allows(name, other))
+            made = body(name)
+            allowed.update((made, one) if made <= one else (one, made) for other, one in present
+                           if other != name and contacts.allows(name, other))
     return allowed
 
 
@@ -206,7 +208,8 @@ def plan(wanted, contacts, margins, node, refused=frozenset()):
         changes += _change(name, had, body, node.reference) if had else _addition(name, body, node.reference)
         bodies[name] = body
     made_again = {operation.body for operation in removals}
-    off = frozenset(pair for pair in node.off if set(pair) <= (set(node.bodies) - made_again) | node.others)
+    kept = (set(node.bodies) - made_again) | node.others
+    off = frozenset(pair for pair in node.off if kept.issuperset(pair))
     to_watch, to_allow = _contact_changes(contacts, off, bodies, node.others)
     to_allow = [pair for pair in to_allow if contact_owner(pair) not in refused]
     changed_margins = {name: margin for name, margin in margins.items()
@@ -226,7 +229,7 @@ def _contact_changes(contacts, off, bodies, others):
     """Pairs to watch again and pairs to switch off. Those that a body's attachment switches off stay so."""
     held = {tuple(sorted((name, other))) for name, body in bodies.items() for other in body.touch + (body.link,)}
     present = set(bodies) | others
-    return sorted(off - set(contacts) - held), sorted(pair for pair in set(contacts) - off if set(pair) <= present)
+    return sorted(off - contacts - held), sorted(pair for pair in contacts - off if present.issuperset(pair))
 
 
 def contact_owner(pair):

@@ -1,6 +1,7 @@
 #include "cloud_message.h"
 
 #include <sensor_msgs/PointCloud2.h>
+#include <std_msgs/Header.h>
 
 #include <array>
 #include <cstdint>
@@ -8,6 +9,7 @@
 
 #include "concave_distance/base/error.h"
 #include "kinematics/frame_name.h"
+#include "message_bytes.h"
 #include "octomap_message.h"
 
 namespace concave_distance {
@@ -17,6 +19,45 @@ using sensor_msgs::PointCloud2;
 using sensor_msgs::PointField;
 
 constexpr std::size_t kMostPoints = 50'000'000;
+constexpr std::size_t kLeastFieldSize = 13;  // bytes of a PointField without a name
+
+/// A PointCloud2 whose data lie in the bytes of its message.
+struct CloudFields {
+  std_msgs::Header header;
+  std::uint32_t height = 0;
+  std::uint32_t width = 0;
+  std::vector<PointField> fields;
+  bool is_bigendian = false;
+  std::uint32_t point_step = 0;
+  std::uint32_t row_step = 0;
+  const std::uint8_t* data = nullptr;
+  std::size_t size = 0;
+};
+
+PointField fieldOf(MessageBytes& bytes) {
+  PointField field;
+  field.name = bytes.next<std::string>();
+  field.offset = bytes.next<std::uint32_t>();
+  field.datatype = bytes.next<std::uint8_t>();
+  field.count = bytes.next<std::uint32_t>();
+  return field;
+}
+
+CloudFields fieldsOf(MessageBytes& bytes) {
+  CloudFields cloud;
+  cloud.header = bytes.next<std_msgs::Header>();
+  cloud.height = bytes.next<std::uint32_t>();
+  cloud.width = bytes.next<std::uint32_t>();
+  for (std::size_t left = bytes.nextCount(kLeastFieldSize); left > 0; --left)
+    cloud.fields.push_back(fieldOf(bytes));
+  cloud.is_bigendian = bytes.next<std::uint8_t>() != 0;
+  cloud.point_step = bytes.next<std::uint32_t>();
+  cloud.row_step = bytes.next<std::uint32_t>();
+  cloud.size = bytes.nextCount(1);
+  cloud.data = bytes.take(cloud.size);
+  bytes.next<std::uint8_t>();  // is_dense, which sensors set anyhow
+  return cloud;
+}
 
 /// Where a coordinate stands in the bytes of a point.
 struct Coordinate {
@@ -25,7 +66,7 @@ struct Coordinate {
   std::size_t size() const { return is_double ? sizeof(double) : sizeof(float); }
 };
 
-Coordinate coordinateOf(const PointCloud2& cloud, const std::string& name) {
+Coordinate coordinateOf(const CloudFields& cloud, const std::string& name) {
   std::string fields;
   for (const PointField& field : cloud.fields) {
     if (field.name != name) {
@@ -51,7 +92,7 @@ Coordinate coordinateOf(const PointCloud2& cloud, const std::string& name) {
               "a cloud needs x, y and z");
 }
 
-void requireSizes(const PointCloud2& cloud) {
+void requireSizes(const CloudFields& cloud) {
   const std::uint64_t points = std::uint64_t{cloud.width} * cloud.height;
   const std::uint64_t row = std::uint64_t{cloud.width} * cloud.point_step;
   const std::uint64_t bytes = std::uint64_t{cloud.row_step} * cloud.height;
@@ -59,11 +100,11 @@ void requireSizes(const PointCloud2& cloud) {
     throw Error("width", std::to_string(points) + " points",
                 "at most " + std::to_string(kMostPoints) + " are read: thin the cloud");
   }
-  if (points > 0 && (cloud.row_step < row || cloud.data.size() < bytes)) {
+  if (points > 0 && (cloud.row_step < row || cloud.size < bytes)) {
     throw Error("data",
-                std::to_string(cloud.data.size()) + " bytes for " + std::to_string(cloud.height) +
-                    " rows of " + std::to_string(cloud.row_step) + " bytes with " +
-                    std::to_string(cloud.width) + " points of " + std::to_string(cloud.point_step),
+                std::to_string(cloud.size) + " bytes for " + std::to_string(cloud.height) + " rows of " +
+                    std::to_string(cloud.row_step) + " bytes with " + std::to_string(cloud.width) +
+                    " points of " + std::to_string(cloud.point_step),
                 "row_step must hold a row, and data all rows");
   }
 }
@@ -86,7 +127,7 @@ bool isBigEndianHere() {
   return first == 0;
 }
 
-CloudReading readPoints(const PointCloud2& cloud, const CloudSettings& settings) {
+CloudReading readPoints(const CloudFields& cloud, const CloudSettings& settings) {
   requireSizes(cloud);
   CloudReading reading;
   reading.frame = cloud.header.frame_id;
@@ -95,10 +136,10 @@ CloudReading readPoints(const PointCloud2& cloud, const CloudSettings& settings)
   if (reading.points_in == 0) return reading;  // a sensor that sees nothing may name no fields
   const std::array<Coordinate, 3> axes{coordinateOf(cloud, "x"), coordinateOf(cloud, "y"),
                                        coordinateOf(cloud, "z")};
-  const bool is_swapped = (cloud.is_bigendian != 0) != isBigEndianHere();
+  const bool is_swapped = cloud.is_bigendian != isBigEndianHere();
   reading.points.reserve(reading.points_in);
   for (std::size_t row = 0; row < cloud.height; ++row) {
-    const std::uint8_t* at = cloud.data.data() + row * cloud.row_step;
+    const std::uint8_t* at = cloud.data + row * cloud.row_step;
     for (std::size_t column = 0; column < cloud.width; ++column, at += cloud.point_step) {
       Eigen::Vector3d point;
       for (int k = 0; k < 3; ++k) {
@@ -119,13 +160,13 @@ CloudReading readCloud(const topic_tools::ShapeShifter& message, const CloudSett
   const std::string& type = message.getDataType();
   CloudReading reading;
   if (type == ros::message_traits::datatype<PointCloud2>()) {
-    PointCloud2::ConstPtr cloud;
-    try {
-      cloud = message.instantiate<PointCloud2>();
-    } catch (const std::exception& problem) {
-      throw Error(type, problem.what(), "the publisher must use the definition of this distribution");
+    const std::string md5sum = ros::message_traits::md5sum<PointCloud2>();
+    if (message.getMD5Sum() != md5sum) {
+      throw Error(type, "its definition has md5sum " + message.getMD5Sum() + ", not " + md5sum,
+                  "the publisher must use the definition of this distribution");
     }
-    reading = readPoints(*cloud, settings);
+    MessageBytes bytes(message);
+    reading = readPoints(fieldsOf(bytes), settings);
   } else if (type == kOctomapType) {
     reading = readOctomap(message, settings);
   } else {

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "base/number_text.h"
 #include "concave_distance/base/error.h"
 #include "kinematics/wording.h"
 #include "ros/tf/tf_poses.h"
@@ -51,6 +52,15 @@ detail::PointFilter makeFilter(const std::string& frame_of_points, ros::Time sta
   return filter;
 }
 
+// Its distance would be missing without a word.
+[[noreturn]] void throwOutside(const Eigen::Vector3d& point, const SceneBody& body) {
+  const double reach = body.cloud->settings->voxel_size * VoxelGrid::kLargestIndex;
+  throw Error("cloud '" + body.name + "'",
+              "a point is " + numberText(point.cwiseAbs().maxCoeff(), 3) + " m from the origin of '" +
+                  body.frame + "' along an axis, where voxels reach " + numberText(reach, 3) + " m",
+              "give it a range that leaves such points out, or larger voxels");
+}
+
 }  // namespace
 
 void detail::addRemark(std::string& remarks, const std::string& remark) {
@@ -84,7 +94,8 @@ CloudVoxels makeVoxels(const CloudReading& reading, const Scene& scene, const Sc
   VoxelCell cell{};
   for (const Eigen::Vector3d& seen : reading.points) {
     const Eigen::Vector3d point = frame_from_reading * seen;
-    if (made.voxels.locate(point, cell)) take(point, cell);
+    if (!made.voxels.locate(point, cell)) throwOutside(point, body);
+    take(point, cell);
   }
   if (reading.map) {
     for (const VoxelCell& occupied : reading.map->cells()) {

@@ -21,7 +21,8 @@ struct CloudVoxels {
 /// Returns the voxels that a reading occupies, without those on bodies that the cloud leaves out. It waits
 /// for tf at the reading's stamp. @param body of the cloud, in `scene`. @param transform_timeout seconds in
 /// all
-/// @throws Error when tf does not say where the sensor was, or there are too many voxels
+/// @throws Error when tf does not say where the sensor was, a point is outside of the grid, or there are too
+///         many voxels
 CloudVoxels makeVoxels(const CloudReading& reading, const Scene& scene, const SceneBody& body,
                        const TransformBuffer& transforms, double transform_timeout);
 

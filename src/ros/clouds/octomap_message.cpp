@@ -2,7 +2,6 @@
 
 #include <octomap/ColorOcTree.h>
 #include <octomap/OcTree.h>
-#include <ros/serialization.h>
 #include <std_msgs/Header.h>
 
 #include <array>
@@ -13,6 +12,7 @@
 
 #include "base/number_text.h"
 #include "concave_distance/base/error.h"
+#include "message_bytes.h"
 
 namespace concave_distance {
 namespace {
@@ -24,10 +24,10 @@ constexpr std::array<const char*, 5> kFields{"Header header", "bool binary", "st
 
 struct OctomapFields {
   std_msgs::Header header;
-  std::uint8_t binary = 0;
+  bool binary = false;
   std::string id;
   double resolution = 0.0;
-  std::vector<std::int8_t> data;
+  std::string data;
 };
 
 // The fields of a definition, without comments, constants and the types that it uses.
@@ -64,20 +64,14 @@ void requireDefinition(const std::string& definition) {
 }
 
 OctomapFields fieldsOf(const topic_tools::ShapeShifter& message) {
-  std::vector<std::uint8_t> bytes(message.size());
-  ros::serialization::OStream out(bytes.data(), message.size());
-  message.write(out);
-  ros::serialization::IStream in(bytes.data(), message.size());
+  MessageBytes bytes(message);
   OctomapFields fields;
-  try {
-    in.next(fields.header);
-    in.next(fields.binary);
-    in.next(fields.id);
-    in.next(fields.resolution);
-    in.next(fields.data);
-  } catch (const ros::Exception& problem) {
-    throw Error(kOctomapType, std::string("the message is cut: ") + problem.what(), "send it again");
-  }
+  fields.header = bytes.next<std_msgs::Header>();
+  fields.binary = bytes.next<std::uint8_t>() != 0;
+  fields.id = bytes.next<std::string>();
+  fields.resolution = bytes.next<double>();
+  const std::size_t size = bytes.nextCount(1);
+  fields.data.assign(reinterpret_cast<const char*>(bytes.take(size)), size);
   return fields;
 }
 
@@ -85,8 +79,7 @@ OctomapFields fieldsOf(const topic_tools::ShapeShifter& message) {
 class TreeBytes {
  public:
   /// @param value_size bytes of a node's value; 0: a binary map, whose nodes have none
-  TreeBytes(const std::vector<std::int8_t>& data, std::size_t value_size)
-      : data_(data), value_size_(value_size) {}
+  TreeBytes(const std::string& data, std::size_t value_size) : data_(data), value_size_(value_size) {}
 
   void check() {
     if (data_.empty()) return;
@@ -134,18 +127,18 @@ class TreeBytes {
     }
   }
 
-  const std::vector<std::int8_t>& data_;
+  const std::string& data_;
   std::size_t value_size_;
   std::size_t at_ = 0;
 };
 
 template <typename Tree>
 void readTree(const OctomapFields& fields, std::size_t value_size, std::size_t most, VoxelGrid& grid) {
-  TreeBytes(fields.data, fields.binary != 0 ? 0 : value_size).check();
+  TreeBytes(fields.data, fields.binary ? 0 : value_size).check();
   Tree tree(fields.resolution);
-  std::istringstream bytes(std::string(fields.data.begin(), fields.data.end()));
+  std::istringstream bytes(fields.data);
   if (!fields.data.empty()) {
-    if (fields.binary != 0) {
+    if (fields.binary) {
       tree.readBinaryData(bytes);
     } else {
       tree.readData(bytes);

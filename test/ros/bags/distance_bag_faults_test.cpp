@@ -141,6 +141,32 @@ TEST_F(DistanceBagFaults, SaysWhereABagIsDamaged) {
   expectFault("--bag bad.bag", {"bad.bag: it is damaged", "s after the begin", "nothing was written"});
 }
 
+// rosbag's library follows every place that an index names.
+TEST_F(DistanceBagFaults, SaysThatABagHasEndedTheProcessThatReadsIt) {
+  writeMotion("run.bag");
+  std::string bag = content("run.bag");
+  constexpr std::size_t kToPlace = 4 + (4 + 8) + 4 + 8;  // op, the version, a length, a time
+  std::size_t count = 0;
+  for (std::size_t at = bag.find("op=\x04"); at != std::string::npos; at = bag.find("op=\x04", at + 1)) {
+    bag.replace(at + kToPlace, 4, "\xff\xff\xff\x7f");
+    ++count;
+  }
+  ASSERT_GT(count, 2U);
+  folder_.write("bad.bag", bag);
+  expectFault("--bag bad.bag", {"bad.bag: it is", "has ended the process that reads it", "rosbag reindex"});
+}
+
+// Messages that rosbag's library leaves out may not be missing in silence.
+TEST_F(DistanceBagFaults, RefusesABagWhoseMessagesHaveNoTime) {
+  writeMotion("run.bag");
+  std::string bag = content("run.bag");
+  const std::size_t index = bag.rfind("op=\x04");
+  ASSERT_NE(index, std::string::npos);
+  bag.replace(index + 4 + (4 + 8) + 4, 8, std::string(8, '\0'));
+  folder_.write("bad.bag", bag);
+  expectFault("--bag bad.bag", {"bad.bag: it is cut off or damaged", "invalid time", "rosbag reindex"});
+}
+
 TEST_F(DistanceBagFaults, NamesTopicsThatThereAreInstead) {
   {
     BagWriter writer(folder_.path("run.bag"));
@@ -258,7 +284,8 @@ TEST_F(DistanceBagFaults, NamesFramesThatNeverAppear) {
     writer.stand(transformOf("a", 0.0, atMs(0)));
     writer.move({transformOf("arm", 2.0, atMs(10))});
   }
-  expectFault("--bag run.bag", {"no pair has an answer", "1 frames of bodies are not on tf: 'b'", "arm"});
+  expectFault("--bag run.bag", {"no pair has an answer", "1 frame of bodies is not on tf: 'b'",
+                                "record /tf_static too", "the bag's frames: a, arm, "});
   writeMotion("run.bag", 10);
   expectFault("--bag run.bag --reference-frame map", {"no pair has an answer", "the reference frame 'map'"});
   folder_.write("three.yaml",
@@ -266,7 +293,7 @@ TEST_F(DistanceBagFaults, NamesFramesThatNeverAppear) {
                                "  - {name: c, box: {size: [1, 1, 1]}}\npairs:\n  - {between: [a, c]}\n"));
   ASSERT_EQ(run("--scene three.yaml --bag run.bag --output d.csv"), 0) << log();
   EXPECT_TRUE(says("no answer of pair a/c: ")) << log();
-  EXPECT_TRUE(says("1 frames of bodies are not on tf: 'c'")) << log();
+  EXPECT_TRUE(says("1 frame of bodies is not on tf: 'c'")) << log();
   EXPECT_EQ(answers().size(), 10U);
   EXPECT_EQ(rows().size(), 11U) << "one says that c is missing";
   EXPECT_NE(content("d.csv").find(",\"\"\"c\"\" passed to lookupTransform"), std::string::npos)

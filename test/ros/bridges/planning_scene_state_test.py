@@ -195,6 +195,8 @@ class Refused(unittest.TestCase):
         self.assertRefused(add("bad", (Shape("box", (1.0, 1.0)), NONE)), "2 dimensions; give 3")
         self.assertRefused(add("bad", (Shape("cone", (1.0, 0.0)), NONE)), "greater than 0")
         self.assertRefused(add("bad", (Shape("plane", (0.0, 0.0, 0.0, 1.0)), NONE)), "normal")
+        for tiny_or_huge in (5e-324, 1e-200, 1e200, 1.7e308):
+            self.assertRefused(add("bad", (Shape("plane", (tiny_or_huge,) * 3 + (1.0,)), NONE)), "normal of length")
         self.assertRefused(add("bad", (Shape("mesh", ()), NONE)), "no triangle")
         self.assertRefused(add("bad", (Shape("mesh", (0.0,) * 9, (0, 1, 3)), NONE)), "vertex 3 of 3")
         self.assertRefused(add("bad", (Shape("primitive of type 5", ()), NONE)), "type 5", "CONE 4")
@@ -225,10 +227,19 @@ class Refused(unittest.TestCase):
             return self.state.refused.get("attached object 'bad'", "")
         self.assertIn("link_name", attach(""))
         self.assertIn("no shapes", attach("wrist", shapes=()))
+        self.assertIn("no shapes", attach("wrist", APPEND, ()))
         self.assertIn("robot_state.is_diff", attach("wrist", REMOVE, (), False))
         self.assertIn("operation is 3", attach("wrist", MOVE))
         self.assertEqual("", attach("wrist"))
         self.assertIn("attached to 'wrist', not to 'finger'", attach("finger", REMOVE, ()))
+
+    def test_quaternions_of_any_length_are_rotations(self):
+        half = math.sqrt(0.5)
+        for length in (5e-324, 1e-200, 1e-3, 1e200, 1.2e308):
+            pose = ((0.0, 0.0, 0.0), (length, 0.0, 0.0, length))
+            self.state.use(diff(add("turned", (BALL, NONE), (BALL, NONE), pose=pose)))
+            for number, right in zip(self.state.world["turned"].pose[1], (half, 0.0, 0.0, half)):
+                self.assertAlmostEqual(number, right, 12)
 
     def test_numbers_of_links(self):
         self.state.use(diff(padding=(("wrist", -1.0), ("finger", 0.01)), scale=(("wrist", 0.0),)))

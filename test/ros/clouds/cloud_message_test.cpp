@@ -142,6 +142,43 @@ TEST(CloudMessage, MalformedCloudsAreRefusedWithTheirReason) {
   expect("frame_id", [](PointCloud2& c) { c.header.frame_id = ""; });
 }
 
+/// A message of which the bytes at `place` are another count.
+template <typename Message>
+topic_tools::ShapeShifter withCount(const Message& message, std::size_t place, std::uint32_t count) {
+  std::vector<std::uint8_t> bytes(message.size());
+  ros::serialization::OStream out(bytes.data(), message.size());
+  message.write(out);
+  std::memcpy(bytes.data() + place, &count, sizeof count);
+  topic_tools::ShapeShifter other;
+  other.morph(message.getMD5Sum(), message.getDataType(), message.getMessageDefinition(), "0");
+  ros::serialization::IStream in(bytes.data(), message.size());
+  other.read(in);
+  return other;
+}
+
+// A count reserves no memory for which there are no bytes.
+TEST(CloudMessage, CountsWithoutBytesAreRefused) {
+  const PointCloud2 cloud = cloudOf<float>({{1, 2, 3}}, 1);
+  const topic_tools::ShapeShifter good = received(cloud);
+  const std::size_t fields = 4 + 8 + 4 + cloud.header.frame_id.size() + 8;
+  const std::size_t data = good.size() - 1 - cloud.data.size() - 4;
+  OctomapMessage map;
+  map.header.frame_id = "map";
+  map.data = {1, 0};
+  const topic_tools::ShapeShifter good_map = asReceived(map);
+  ASSERT_EQ(refusal(withCount(good, fields, 4)) + refusal(withCount(good, data, 24)) +
+                refusal(withCount(good_map, good_map.size() - 6, 2)),
+            "");
+  for (const std::uint32_t count : {25U, 60'000'000U, 0xffffffffU}) {
+    const std::string text = "an array of " + std::to_string(count) + " has ";
+    for (const std::string& said :
+         {refusal(withCount(good, fields, count)), refusal(withCount(good, data, count)),
+          refusal(withCount(good_map, good_map.size() - 6, count))}) {
+      EXPECT_NE(said.find(text), std::string::npos) << count << ": " << said;
+    }
+  }
+}
+
 TEST(CloudMessage, OtherTypesAndDefinitionsAreRefused) {
   std_msgs::Header header;
   header.frame_id = "camera";
