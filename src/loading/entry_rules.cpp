@@ -84,10 +84,10 @@ void EntryRules::makeRules(PairSelection& result) const {
       const auto [place, is_new] = made.try_emplace(said.entries);
       auto& [settings, enabled] = place->second;
       if (is_new) {
-        PairSettings laid = settingsOf(said.entries, earlier, later, enabled);
+        const PairSettings laid = settingsOf(said.entries, earlier, later, enabled);
         if (!said.entries.empty()) {
           settings = static_cast<std::uint32_t>(rules.settings.size());
-          rules.settings.push_back(std::move(laid));
+          rules.settings.push_back(laid);
         }
       }
       rule.settings = settings;

@@ -179,9 +179,12 @@ class Reload {
         body.carrier = attachment->carrier_before;
         where = "it stays in frame '" + body.frame + "', because " + error.whatIsWrong();
       }
-      report_.dropped.push_back("attachment of '" + name + "' to '" + attachment->parent +
-                                "', which is gone: " + where);
+      noteDropped(name, *attachment, ", which is gone: " + where);
     }
+  }
+
+  void noteDropped(const std::string& body, const Attachment& attachment, const std::string& why) {
+    report_.dropped.push_back("attachment of '" + body + "' to '" + attachment.parent + "'" + why);
   }
 
   void keepEditsOf(std::size_t place, Scene& scene) {
@@ -216,8 +219,7 @@ class Reload {
     }
     if (at != place) return;
     SceneBody& body = scene.bodies.edit(place);
-    report_.dropped.push_back("attachment of '" + body.name + "' to '" + body.attachment->parent +
-                              "': it would be attached to itself, through others");
+    noteDropped(body.name, *body.attachment, ": it would be attached to itself, through others");
     body.carrier = body.attachment->carrier_before;
     body.attachment = nullptr;
   }
