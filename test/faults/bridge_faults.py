@@ -184,7 +184,7 @@ OBJECTS = {
     "rotation_nan": [(solid(2, 0.5), pose(rotation=(NAN, 0, 0, 1)))],
 }
 for label, solids in OBJECTS.items():
-    survives("object_" + label, lambda solids=solids: diff(collision_object("bad", solids)), "'bad'", fast=label == "box_nan")
+    survives("object_" + label, lambda solids=solids: diff(collision_object("bad", solids)), "'bad'")
 for label, rotation in {"1e200": (1e200, 0, 0, 0), "1e308": (1.7e308,) * 4, "denormal": (0, 0, 0, 5e-324), "0": (0, 0, 0, 0)}.items():
     survives("rotation_" + label, lambda rotation=rotation: diff(collision_object("odd", None, at=pose(rotation=rotation))))
 for label, numbers in {"1e200": (1e200, 0, 0, 1), "1e308": (1.7e308, 1.7e308, 1.7e308, 0), "denormal": (5e-324, 0, 0, 1), "nan": (NAN, 0, 1, 0),
