@@ -10,7 +10,7 @@ import ros_wire
 import rospy
 from arena import REPOSITORY
 from attacks import Group, expect, shortened
-from cloud_messages import bytes_class
+from cloud_messages import bytes_class, start_rival
 from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import Point, Pose
 from shape_msgs.msg import Mesh, MeshTriangle, Plane, SolidPrimitive
@@ -287,13 +287,9 @@ DEFINITIONS = {
 
 def rival(arena, type_name, md5sum, text, word):
     """Another publisher of the topic; while it is there and afterwards the good one is served."""
-    from hostile_clouds import SENDER
     watched = bridge(arena)
     require_served(arena)
-    command = [sys.executable, arena.write("rival/sender.py", SENDER), REPOSITORY + "/test/faults", "/monitored_planning_scene",
-               type_name, md5sum, arena.write("rival/definition", text), arena.write("rival/body", b"\0" * 64)]
-    with open(arena.path("logs/rival.log"), "wb") as log:
-        process = processes.start(command, arena.environment, log)
+    process = start_rival(arena, "/monitored_planning_scene", type_name, md5sum, text, b"\0" * 64)
     try:
         watched.until(lambda: any(word in text for text in watched.status.values()) or word in watched.log(), 40.0,
                       "it does not say '%s'" % word)
