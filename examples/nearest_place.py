@@ -8,9 +8,11 @@ import sys
 import concave_distance as cd
 import numpy as np
 
-robot = cd.load_robot(sys.argv[1], mesh_folders=sys.argv[2:])
+robot = cd.load_robot(sys.argv[1], mesh_folders=sys.argv[2:], cutoff=0.5, skip_overlapping_pairs=True)
 for where, message in robot.problems:
     print("{}: {}".format(where, message))
+for warning in robot.warnings:
+    print(warning)
 tracker = cd.SceneTracker(robot)
 positions = np.tile(robot.rest_positions, (50, 1))
 joint = positions.shape[1] // 2

@@ -8,7 +8,7 @@ import sys
 import concave_distance as cd
 import numpy as np
 
-robot = cd.load_robot(sys.argv[1], mesh_folders=sys.argv[2:])
+robot = cd.load_robot(sys.argv[1], mesh_folders=sys.argv[2:], cutoff=0.3, skip_overlapping_pairs=True)
 tracker = cd.SceneTracker(robot)
 constraints = cd.ConstraintRows(robot, distance=0.2, capacity=32)
 positions = robot.rest_positions

@@ -7,6 +7,7 @@ Writes ten minutes at 100 Hz with scripts/write_robot_bag.py, answers them with 
 path at 50 Hz with niches. Fails unless every stamp is answered and both runs give the same bytes. Writes
 doc/results/bags.csv and doc/images/bags.png; some minutes. Needs a build and python3-rosbag.
 """
+import argparse
 import csv
 import hashlib
 import os
@@ -14,7 +15,6 @@ import pathlib
 import re
 import resource
 import subprocess
-import sys
 import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
@@ -58,7 +58,9 @@ def measure(name, bag, rows, seconds, rate, threads, further=()):
 
 
 def main():
-    folder = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else tempfile.mkdtemp())
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("folder", nargs="?", type=pathlib.Path, help="for the bags and rows; a temporary one by default")
+    folder = parser.parse_args().folder or pathlib.Path(tempfile.mkdtemp())
     folder.mkdir(parents=True, exist_ok=True)
     long_bag, round_bag = folder / "long.bag", folder / "round.bag"
     write_bag(long_bag, 600.0, 100.0)

@@ -71,6 +71,10 @@ def with_gaps(line, np):
     return np.insert(times, behind, times[behind - 1]), np.insert(distances, behind, np.nan)
 
 
+def counted(count, of_one, of_more):
+    return "%d %s" % (count, of_one if count == 1 else of_more)
+
+
 def draw(lines, options):
     import matplotlib
     matplotlib.use("Agg")
@@ -92,10 +96,10 @@ def draw(lines, options):
         if line.overlaps:
             axes.plot(np.array(line.overlaps), np.zeros(len(line.overlaps)), "x", color=colour, zorder=3)
     if others:
-        axes.plot([], [], color="0.8", label="%d pairs that stay farther" % len(others))
+        axes.plot([], [], color="0.8", label=counted(len(others), "pair stays farther", "pairs stay farther"))
     silent = len(named) - len(answered)
     if silent:
-        axes.plot([], [], " ", label="%d pairs without a distance" % silent)
+        axes.plot([], [], " ", label=counted(silent, "pair has no distance", "pairs have no distance"))
     axes.set_xlabel("time after the first stamp (s)")
     axes.set_ylabel("distance (m)")
     axes.set_ylim(bottom=0.0 if not any(lines[pair].overlaps for pair in answered) else None)

@@ -264,8 +264,8 @@ Scene assemble(const SceneSpec& spec, SceneParts parts, const SceneLoadOptions& 
         built[i].body->added_rule = added->second;
       scene.bodies.push_back(std::move(*built[i].body));
     } else if (parts.sources[i].cloud && !options.clouds) {
-      scene.notes.push_back("cloud '" + parts.sources[i].name +
-                            "' is left out, because only the node receives clouds");
+      scene.warnings.push_back("cloud '" + parts.sources[i].name +
+                               "' is left out, because only the node receives clouds");
     } else {
       scene.problems.push_back({parts.sources[i].source, "body '" + parts.sources[i].name +
                                                              "' is not served: " + built[i].problem + "; " +

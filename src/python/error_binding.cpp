@@ -16,10 +16,10 @@ void translate(std::exception_ptr thrown) {
   try {
     if (thrown) std::rethrow_exception(thrown);
   } catch (const Error& problem) {
-    py::object error = py::handle(error_class)(toPython(problem.what()));
+    py::object error = py::handle(error_class)(toPython(inKeywords(problem.what())));
     error.attr("where") = toPython(problem.where());
-    error.attr("what") = toPython(problem.whatIsWrong());
-    error.attr("remedy") = toPython(problem.remedy());
+    error.attr("what") = toPython(inKeywords(problem.whatIsWrong()));
+    error.attr("remedy") = toPython(inKeywords(problem.remedy()));
     PyErr_SetObject(error_class, error.ptr());
   }
 }

@@ -65,11 +65,20 @@ ScenePointer loadSceneOf(const std::string& path, const Texts& package_folders, 
   return std::make_shared<PythonScene>(loadSceneFile(path, options));
 }
 
+GeometrySource geometryOf(const std::string& name) {
+  if (name == "collision") return GeometrySource::Collision;
+  if (name == "visual") return GeometrySource::Visual;
+  throw Error("geometry", "the value is '" + name + "'", "allowed: collision, visual");
+}
+
 ScenePointer loadRobotOf(const std::string& urdf, const std::optional<std::string>& srdf,
                          const Texts& package_folders, const Texts& mesh_folders, bool strict,
-                         const std::string& cache, const py::kwargs& keywords) {
+                         const std::string& cache, const std::string& geometry, bool skip_overlapping_pairs,
+                         const py::kwargs& keywords) {
   SceneLoadOptions options =
       loadOptions(package_folders, mesh_folders, strict, cache, "load_robot", keywords);
+  options.geometry = geometryOf(geometry);
+  options.skip_overlapping_pairs = skip_overlapping_pairs;
   options.mesh_search_path.push_back(urdf);
   const Unlocked unlocked;
   if (srdf) options.descriptions["robot_description_semantic"] = readText(*srdf);
@@ -88,10 +97,16 @@ Texts bodyNames(const PythonScene& scene) {
   return names;
 }
 
+py::list messagesOf(const Texts& messages) {
+  py::list texts;
+  for (const std::string& message : messages) texts.append(toPython(inKeywords(message)));
+  return texts;
+}
+
 py::list problemsOf(const PythonScene& scene) {
   py::list problems;
   for (const SceneProblem& problem : scene.scene.problems)
-    problems.append(py::make_tuple(toPython(problem.where), toPython(problem.message)));
+    problems.append(py::make_tuple(toPython(problem.where), toPython(inKeywords(problem.message))));
   return problems;
 }
 
@@ -136,9 +151,13 @@ void bindLoading(py::module_& module) {
           .c_str());
   module.def("load_robot", &loadRobotOf, py::arg("urdf"), py::arg("srdf") = py::none(), py::kw_only(),
              py::arg("package_folders") = Texts(), py::arg("mesh_folders") = Texts(),
-             py::arg("strict") = false, py::arg("cache") = "",
+             py::arg("strict") = false, py::arg("cache") = "", py::arg("geometry") = "collision",
+             py::arg("skip_overlapping_pairs") = false,
              (std::string("Loads a robot: every link a body, every two links a pair but adjacent ones.\n\n"
-                          "urdf: path of the file; srdf: of one that disables pairs\n") +
+                          "urdf: path of the file; srdf: of one that disables pairs\n"
+                          "geometry: which of the URDF's, 'collision' or 'visual'\n"
+                          "skip_overlapping_pairs: leaves out links that overlap in every pose tried, else "
+                          "Scene.warnings names them\n") +
               kLoadingDoc)
                  .c_str());
 }
@@ -151,8 +170,9 @@ void bindScenes(py::module_& module) {
       .def_property_readonly("body_names", &bodyNames)
       .def_property_readonly("problems", &problemsOf,
                              "A list of (where, message): what could not be loaded; the rest is served.")
-      .def_property_readonly("warnings", [](const PythonScene& scene) { return scene.scene.warnings; })
-      .def_property_readonly("notes", [](const PythonScene& scene) { return scene.scene.notes; })
+      .def_property_readonly("warnings",
+                             [](const PythonScene& scene) { return messagesOf(scene.scene.warnings); })
+      .def_property_readonly("notes", [](const PythonScene& scene) { return messagesOf(scene.scene.notes); })
       .def_property_readonly("robot_names", &robotNames, "Names of the robots, r of them.")
       .def_property_readonly(
           "position_names", [](const PythonScene& scene) { return scene.joints->positionNames(); },

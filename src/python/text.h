@@ -13,6 +13,19 @@ inline pybind11::str toPython(const std::string& text) {
       PyUnicode_DecodeUTF8(text.data(), static_cast<Py_ssize_t>(text.size()), "replace"));
 }
 
+/// Returns a message of the library in Python's words: `~geometry`, a parameter of the node, is the keyword
+/// `geometry`, and the folders of `~mesh_search_path` are `mesh_folders`.
+inline std::string inKeywords(const std::string& message) {
+  static const std::string kSearchPath = "~mesh_search_path";
+  std::string text = message;
+  for (std::size_t at = text.find(kSearchPath); at != std::string::npos; at = text.find(kSearchPath, at))
+    text.replace(at, kSearchPath.size(), "mesh_folders");
+  for (std::size_t at = text.find('~'); at != std::string::npos; at = text.find('~', at + 1)) {
+    if (at + 1 < text.size() && 'a' <= text[at + 1] && text[at + 1] <= 'z') text.erase(at, 1);
+  }
+  return text;
+}
+
 /// Returns the bytes of a Python text, nothing where it has surrogates, which UTF-8 does not.
 inline std::optional<std::string> toUtf8(pybind11::handle text) {
   Py_ssize_t size = 0;

@@ -11,6 +11,22 @@ inline std::string optionName(std::string parameter) {
   return "--" + parameter;
 }
 
+/// A sentence of a parameter table without Markdown: of links their texts, and no backquotes.
+inline std::string withoutMarkdown(const std::string& sentence) {
+  std::string text;
+  for (std::size_t i = 0; i < sentence.size(); ++i) {
+    const char c = sentence[i];
+    if (c == '`' || c == '[') continue;
+    if (c != ']') {
+      text += c;
+      continue;
+    }
+    if (i + 1 < sentence.size() && sentence[i + 1] == '(')
+      i = std::min(sentence.find(')', i), sentence.size());
+  }
+  return text;
+}
+
 /// A message of the node in the words of a tool: its parameters are options, `--stale-after` for
 /// `~stale_after`.
 inline std::string inOptions(const std::string& message) {

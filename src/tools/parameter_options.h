@@ -1,7 +1,6 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <string>
 #include <utility>
 
@@ -23,10 +22,9 @@ CLI::Option* addParameter(CLI::App& app, const Parameter<Settings>& parameter, S
     }
     parameter.set(settings, value);
   };
-  std::string sentence = parameter.info.sentence;
-  sentence.erase(std::remove(sentence.begin(), sentence.end(), '`'), sentence.end());
   return app
-      .add_option_function<std::string>(name, assign, sentence + " (" + allowedValues(parameter.info) + ")")
+      .add_option_function<std::string>(
+          name, assign, withoutMarkdown(parameter.info.sentence) + " (" + allowedValues(parameter.info) + ")")
       ->default_str(toText(parameter.get(settings)))
       ->type_name("");
 }

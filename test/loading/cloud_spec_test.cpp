@@ -72,11 +72,11 @@ TEST_F(CloudSpec, NamesStandOnceAndAreNoPatterns) {
             std::string::npos);
 }
 
-TEST_F(CloudSpec, ToolsLeaveCloudsOutWithANote) {
+TEST_F(CloudSpec, ToolsLeaveCloudsOutWithAWarning) {
   options.clouds = false;
   const Scene scene = load(cloud() + "bodies:\n  - name: ball\n    frame: ball\n    sphere: {radius: 1}\n");
   EXPECT_EQ(bodyNames(scene), std::vector<std::string>{"ball"});
-  EXPECT_EQ(std::count(scene.notes.begin(), scene.notes.end(),
+  EXPECT_EQ(std::count(scene.warnings.begin(), scene.warnings.end(),
                        "cloud 'camera' is left out, because only the node receives clouds"),
             1);
 }

@@ -147,6 +147,30 @@ class Scenes(unittest.TestCase):
             signal.setitimer(signal.ITIMER_REAL, 0.0)
             signal.signal(signal.SIGALRM, before)
 
+    def test_a_robot_of_visual_geometry(self):
+        visual = self.write("visual.urdf", SLIDE.replace("collision>", "visual>"))
+        bare = cd.load_robot(visual, cache="off")
+        self.assertEqual(bare.body_names, [])
+        self.assertIn("set geometry to visual", bare.warnings[0])
+        robot = cd.load_robot(visual, cache="off", geometry="visual")
+        self.assertEqual(robot.body_names, cd.load_robot(self.write("robot.urdf", SLIDE), cache="off").body_names)
+        self.assertEqual(robot.warnings, [])
+
+    def test_links_that_always_overlap_are_named_or_left_out(self):
+        swallowing = self.write("swallowing.urdf", SLIDE.replace('radius="0.1"', 'radius="3"'))
+        self.assertIn("or set skip_overlapping_pairs", cd.load_robot(swallowing, cache="off").warnings[0])
+        skipped = cd.load_robot(swallowing, cache="off", skip_overlapping_pairs=True)
+        self.assertEqual(skipped.warnings, [])
+
+    def test_messages_name_keywords_of_python(self):
+        text = SLIDE.replace('<sphere radius="0.1"/>', '<mesh filename="package://nowhere/box.stl"/>', 1)
+        path = self.write("mesh.urdf", text)
+        _, message = cd.load_robot(path, cache="off").problems[0]
+        self.assertIn("name the folder that holds the meshes in mesh_folders", message)
+        with self.assertRaises(cd.Error) as caught:
+            cd.load_robot(path, cache="off", strict=True)
+        self.assertIn("in mesh_folders", str(caught.exception))
+
     def test_none_is_no_scene(self):
         for make in (cd.SceneTracker, cd.ConstraintRows):
             with self.assertRaises(TypeError):
@@ -169,6 +193,7 @@ class Scenes(unittest.TestCase):
                 ("scene file", "nowhere.yaml", lambda: cd.load_scene("nowhere.yaml")),
                 ("nowhere.urdf", "cannot be read", lambda: cd.load_robot("nowhere.urdf")),
                 ("wrong.yaml", "'radius' is missing", lambda: cd.load_scene(wrong, strict=True)),
+                ("geometry", "'both'", lambda: cd.load_robot(self.write("robot.urdf", SLIDE), geometry="both")),
                 ("load_scene", "'margin_a'", lambda: cd.load_scene(wrong, margin_a=0.1)),
                 ("poses", "1 for 2", lambda: cd.SceneTracker(scene).update(np.eye(4), 0.0)),
                 ("poses", "'far'", lambda: cd.SceneTracker(scene).update(no_pose, 0.0)),

@@ -56,7 +56,7 @@ struct SceneLoadOptions {
   std::optional<double> chord_error;
   GeometrySource geometry = GeometrySource::Collision;  ///< default; a scene file's robot may override
   /// If true, the caller receives the clouds that a scene file names (SceneBody::cloud); else they are left
-  /// out with a note.
+  /// out with a warning.
   bool clouds = false;
   /// URDF texts by parameter name, e.g. {"robot_description", ...}; a scene file refers to them by name.
   std::map<std::string, std::string> descriptions;

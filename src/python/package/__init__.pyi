@@ -229,6 +229,8 @@ def load_robot(
     mesh_folders: Sequence[str] = (),
     strict: bool = False,
     cache: str = "",
+    geometry: str = "collision",
+    skip_overlapping_pairs: bool = False,
     **parameters: Any,
 ) -> Scene: ...
 

@@ -23,7 +23,7 @@ struct BagMoment {
   std::unordered_set<std::string> frames;  ///< that have a transform of it
 };
 
-/// What of a bag the node's rules refuse.
+/// Holds what of a bag the node's rules refuse.
 struct BagRefusals {
   static constexpr std::size_t kMostReasons = 10;
   std::uint64_t count = 0;  ///< of transforms, and of messages that are none

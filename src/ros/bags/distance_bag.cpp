@@ -2,6 +2,7 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <atomic>
 #include <csignal>
 #include <cstdio>
@@ -21,6 +22,7 @@
 #include "base/short_text.h"
 #include "base/versions.h"
 #include "concave_distance/base/error.h"
+#include "kinematics/wording.h"
 #include "ros/node/scene_loader.h"
 #include "ros/tf/frame_report.h"
 #include "ros/time_difference.h"
@@ -33,6 +35,10 @@ namespace {
 constexpr int kInterrupted = 130;  // as a shell has it for Ctrl-C
 constexpr std::size_t kMostListed = 10;
 constexpr const char* kPlotProgram = "plot_distances.py";
+constexpr FrameRemedies kFrameRemedies{
+    "record /tf_static too, from the robot's start, play further bags, or check that the scene is of this "
+    "robot",
+    "play the bag or topic that has the transform between the two, as /tf_static of the robot's start"};
 
 std::atomic<bool> interrupted{false};
 
@@ -61,6 +67,7 @@ std::map<std::string, std::string> readDescriptions(BagOptions& options) {
 
 Scene load(BagOptions& options) {
   SceneRequest request;
+  request.clouds = false;
   request.descriptions = readDescriptions(options);
   if (options.node.scene_file.empty()) {
     if (request.descriptions.count(kUsualDescription) == 0) {
@@ -78,9 +85,11 @@ Scene load(BagOptions& options) {
   LoadProgress progress;
   progress.stopped_with = &interrupted;
   Scene scene = loadScene(options.node, request, progress);
-  for (const std::string& warning : scene.warnings) std::cerr << "warning: " << warning << '\n';
+  for (const std::string& warning : scene.warnings) {
+    std::cerr << "warning: " << tools::inOptions(warning) << '\n';
+  }
   for (const SceneProblem& problem : scene.problems) {
-    std::cerr << "not in the scene: " << problem.where << ": " << problem.message << '\n';
+    std::cerr << "not in the scene: " << problem.where << ": " << tools::inOptions(problem.message) << '\n';
   }
   return scene;
 }
@@ -104,17 +113,21 @@ void printProblems(const BagReplay& replay, const Scene& scene, const std::strin
     std::cerr << "warning: " << unanswered.size() << " pairs have no answer in all\n";
   }
   const std::string missing =
-      describeMissingFrames(*replay.moments().buffer().current(), scene, reference_frame);
+      describeMissingFrames(*replay.moments().buffer().current(), scene, reference_frame, kFrameRemedies);
   if (!missing.empty()) std::cerr << "warning: at the end " << tools::inOptions(missing) << '\n';
 }
 
 [[noreturn]] void throwWithoutAnswer(const BagReplay& replay, const Scene& scene, const BagOptions& options) {
   const std::string where = joinedText(options.bags.paths, ", ");
+  const tf2::BufferCore& frames = *replay.moments().buffer().current();
   const std::string missing =
-      describeMissingFrames(*replay.moments().buffer().current(), scene, options.node.reference_frame);
+      describeMissingFrames(frames, scene, options.node.reference_frame, kFrameRemedies);
   if (!missing.empty()) {
+    std::vector<std::string> names;
+    frames._getFrameStrings(names);
+    std::sort(names.begin(), names.end());
     throw Error(where, "no pair has an answer: " + tools::inOptions(missing),
-                "the bag's frames: " + shortText(replay.moments().buffer().current()->allFramesAsString()));
+                "the bag's frames: " + shortText(detail::listed(names, kMostListed * 10)));
   }
   const auto unanswered = replay.rows().unanswered();
   throw Error(where,

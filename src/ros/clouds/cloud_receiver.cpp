@@ -116,10 +116,14 @@ void CloudReceiver::use(const Arrival& arrival) {
     report.voxels = made.voxels.cells().size();
     serve(body, made, stamp);
     report.seconds = std::chrono::duration<double>(Clock::now() - arrival.time).count();
-    if (report.seconds >= settings_->stale_after)
+    // The seconds of what is late differ from cloud to cloud and must not make each a subject of its own.
+    std::string subject = report.remark;
+    if (report.seconds >= settings_->stale_after) {
+      detail::addRemark(subject, "late");
       detail::addRemark(report.remark, tooLate(report.seconds, *settings_));
+    }
     const std::lock_guard<std::mutex> lock(mutex_);
-    if (!report.remark.empty() && throttle_.isDue(report.remark))
+    if (!report.remark.empty() && throttle_.isDue(subject))
       ROS_WARN_STREAM("cloud '" << name_ << "': " << report.remark);
     ++report_.taken;
     report_.remark = report.remark;

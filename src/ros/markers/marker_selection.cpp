@@ -64,7 +64,9 @@ std::set<std::size_t> warnedBodies(const Scene& scene, const std::vector<DrawnPa
     bodies.insert({*body_a, *body_b});
   }
   for (auto body = bodies.begin(); body != bodies.end();) {
-    body = scene.bodies[*body].mesh->diameter() > largest ? bodies.erase(body) : std::next(body);
+    const SceneBody& warned = scene.bodies[*body];
+    // A cloud is all that a sensor sees, and another mesh several times a second.
+    body = warned.cloud || warned.mesh->diameter() > largest ? bodies.erase(body) : std::next(body);
   }
   return bodies;
 }

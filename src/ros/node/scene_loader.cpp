@@ -4,6 +4,7 @@
 #include <ros/package.h>
 
 #include <exception>
+#include <mutex>
 #include <utility>
 #include <vector>
 
@@ -35,6 +36,20 @@ Scene loadRobot(const std::string& urdf, const std::string& name, const SceneLoa
     scene.problems.push_back({problem.where(), problem.whatIsWrong() + " (" + problem.remedy() + ")"});
     return scene;
   }
+}
+
+// rospack writes to the terminal for each package that it does not find: it is asked once for each.
+PackageLocator rememberedPackagePath() {
+  struct Known {
+    std::mutex mutex;
+    std::map<std::string, std::string> folders;
+  };
+  return [known = std::make_shared<Known>()](const std::string& package) {
+    const std::lock_guard<std::mutex> lock(known->mutex);
+    const auto [place, is_new] = known->folders.try_emplace(package);
+    if (is_new) place->second = rosPackagePath(package);
+    return place->second;
+  };
 }
 
 }  // namespace
@@ -94,7 +109,7 @@ SceneRequest requestScene(const NodeParameters& parameters, const ros::NodeHandl
 Scene loadScene(const NodeParameters& parameters, const SceneRequest& request, LoadProgress& progress,
                 const std::shared_ptr<BodyPool>& pool) {
   SceneLoadOptions options;
-  options.package_locator = rosPackagePath;
+  options.package_locator = rememberedPackagePath();
   options.mesh_search_path = parameters.mesh_search_folders;
   options.geometry = parameters.geometry;
   options.default_settings = parameters.pair;
@@ -106,7 +121,7 @@ Scene loadScene(const NodeParameters& parameters, const SceneRequest& request, L
   options.descriptions = request.descriptions;
   options.progress = &progress;
   options.pool = pool;
-  options.clouds = true;
+  options.clouds = request.clouds;
   options.automatic_cutoff = parameters.automatic_cutoff;
   options.skip_overlapping_pairs = parameters.skip_overlapping_pairs;
   if (parameters.chord_error > 0.0) options.chord_error = parameters.chord_error;

@@ -284,7 +284,8 @@ TEST_F(DistanceBagFaults, NamesFramesThatNeverAppear) {
     writer.stand(transformOf("a", 0.0, atMs(0)));
     writer.move({transformOf("arm", 2.0, atMs(10))});
   }
-  expectFault("--bag run.bag", {"no pair has an answer", "1 frames of bodies are not on tf: 'b'", "arm"});
+  expectFault("--bag run.bag", {"no pair has an answer", "1 frame of bodies is not on tf: 'b'",
+                                "record /tf_static too", "the bag's frames: a, arm, "});
   writeMotion("run.bag", 10);
   expectFault("--bag run.bag --reference-frame map", {"no pair has an answer", "the reference frame 'map'"});
   folder_.write("three.yaml",
@@ -292,7 +293,7 @@ TEST_F(DistanceBagFaults, NamesFramesThatNeverAppear) {
                                "  - {name: c, box: {size: [1, 1, 1]}}\npairs:\n  - {between: [a, c]}\n"));
   ASSERT_EQ(run("--scene three.yaml --bag run.bag --output d.csv"), 0) << log();
   EXPECT_TRUE(says("no answer of pair a/c: ")) << log();
-  EXPECT_TRUE(says("1 frames of bodies are not on tf: 'c'")) << log();
+  EXPECT_TRUE(says("1 frame of bodies is not on tf: 'c'")) << log();
   EXPECT_EQ(answers().size(), 10U);
   EXPECT_EQ(rows().size(), 11U) << "one says that c is missing";
   EXPECT_NE(content("d.csv").find(",\"\"\"c\"\" passed to lookupTransform"), std::string::npos)

@@ -350,11 +350,24 @@ TEST_F(DistanceBag, EndsItsRowsWhereItIsInterrupted) {
   EXPECT_NE(log().find("interrupted after"), std::string::npos) << log();
 }
 
+TEST_F(DistanceBag, LeavesCloudsOutAndSaysSo) {
+  writeMotion("run.bag", 10);
+  folder_.write("cloud.yaml",
+                content("boxes.yaml") +
+                    "  - {between: [a, camera]}\nclouds:\n  - {name: camera, topic: /points, frame: a}\n");
+  ASSERT_EQ(run("--scene cloud.yaml --bag run.bag --output d.csv"), 0) << log();
+  EXPECT_NE(log().find("warning: cloud 'camera' is left out"), std::string::npos) << log();
+  EXPECT_EQ(log().find("no answer"), std::string::npos) << log();
+  EXPECT_EQ(rows().size(), 10U);
+}
+
 TEST_F(DistanceBag, HelpsAndRefusesAWrongCommandLine) {
   EXPECT_EQ(run("--help"), 0);
   for (const std::string text : {"--niches-output", "time,stamp,pair,", "Exit status", "--tf-static-topic"}) {
     EXPECT_NE(log().find(text), std::string::npos) << text;
   }
+  EXPECT_EQ(log().find("]("), std::string::npos) << "links of the documents: " << log();
+  EXPECT_NE(log().find("later ones are refused"), std::string::npos) << "but their texts: " << log();
   EXPECT_EQ(run("--bag run.bag"), 2);
   EXPECT_EQ(runBoxes("--bag run.bag --stale-after -1"), 2);
   EXPECT_EQ(runBoxes("--bag run.bag --time-budget 1"), 2) << "it has none";

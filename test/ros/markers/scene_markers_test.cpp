@@ -85,6 +85,7 @@ class Picture {
   }
   void makeStale(std::size_t pair) { pairs_[pair]->status.code = PairStatus::STALE_TRANSFORM; }
   void makeLink(std::size_t body) { scene_.bodies.edit(body).is_robot_link = true; }
+  void makeCloud(std::size_t body) { scene_.bodies.edit(body).cloud = std::make_shared<const CloudState>(); }
   void replaceBody(std::size_t body, const std::string& name) {
     NamedList<SceneBody> bodies;
     for (std::size_t k = 0; k < scene_.bodies.size(); ++k) {
@@ -488,6 +489,16 @@ TEST(SceneMarkers, TintWhatIsWarnedOfAndTheNearestLinkOfARobot) {
   ASSERT_EQ(tints.size(), 2U);
   EXPECT_EQ(tints[0].header.frame_id, "middle");
   EXPECT_EQ(tints[1].header.frame_id, "box_2");
+}
+
+TEST(SceneMarkers, TintTheLinkAndNotTheCloud) {
+  Picture picture(2);
+  picture.makeLink(0);
+  picture.makeCloud(1);
+  picture.warn(0, true);
+  const std::vector<Marker> tints = withKind(picture.draw(), "warning");
+  ASSERT_EQ(tints.size(), 1U);
+  EXPECT_EQ(tints[0].header.frame_id, "middle");
 }
 
 TEST(SceneMarkers, HaveOneLegendThatCanBeSwitchedOff) {
