@@ -10,7 +10,7 @@ import ros_wire
 import rospy
 from arena import REPOSITORY
 from attacks import Group, expect, shortened
-from cloud_messages import bytes_class
+from cloud_messages import bytes_class, start_rival
 from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import Point, Pose
 from shape_msgs.msg import Mesh, MeshTriangle, Plane, SolidPrimitive
@@ -184,7 +184,7 @@ OBJECTS = {
     "rotation_nan": [(solid(2, 0.5), pose(rotation=(NAN, 0, 0, 1)))],
 }
 for label, solids in OBJECTS.items():
-    survives("object_" + label, lambda solids=solids: diff(collision_object("bad", solids)), "'bad'", fast=label == "box_nan")
+    survives("object_" + label, lambda solids=solids: diff(collision_object("bad", solids)), "'bad'")
 for label, rotation in {"1e200": (1e200, 0, 0, 0), "1e308": (1.7e308,) * 4, "denormal": (0, 0, 0, 5e-324), "0": (0, 0, 0, 0)}.items():
     survives("rotation_" + label, lambda rotation=rotation: diff(collision_object("odd", None, at=pose(rotation=rotation))))
 for label, numbers in {"1e200": (1e200, 0, 0, 1), "1e308": (1.7e308, 1.7e308, 1.7e308, 0), "denormal": (5e-324, 0, 0, 1), "nan": (NAN, 0, 1, 0),
@@ -287,13 +287,9 @@ DEFINITIONS = {
 
 def rival(arena, type_name, md5sum, text, word):
     """Another publisher of the topic; while it is there and afterwards the good one is served."""
-    from hostile_clouds import SENDER
     watched = bridge(arena)
     require_served(arena)
-    command = [sys.executable, arena.write("rival/sender.py", SENDER), REPOSITORY + "/test/faults", "/monitored_planning_scene",
-               type_name, md5sum, arena.write("rival/definition", text), arena.write("rival/body", b"\0" * 64)]
-    with open(arena.path("logs/rival.log"), "wb") as log:
-        process = processes.start(command, arena.environment, log)
+    process = start_rival(arena, "/monitored_planning_scene", type_name, md5sum, text, b"\0" * 64)
     try:
         watched.until(lambda: any(word in text for text in watched.status.values()) or word in watched.log(), 40.0,
                       "it does not say '%s'" % word)

@@ -1,10 +1,13 @@
 """Clouds and maps as bytes, so that every count in them may lie, and publishers of such bytes."""
 
 import struct
+import sys
 
 import genpy
-import rospy
+import processes
 import ros_wire
+import rospy
+from arena import REPOSITORY
 from sensor_msgs.msg import PointCloud2, PointField
 
 OCTOMAP_TEXT = ("Header header\nbool binary\nstring id\nfloat64 resolution\nint8[] data\n" + "=" * 80 +
@@ -64,3 +67,26 @@ def octomap_bytes(data=ONE_CELL, name=b"OcTree", resolution=0.1, binary=1, frame
     return (struct.pack("<III", 0, now.secs, now.nsecs) + struct.pack("<I", len(frame)) + frame +
             struct.pack("<BI", binary, len(name)) + name + struct.pack("<d", resolution) +
             struct.pack("<I", len(data) if data_count is None else data_count) + data)
+
+
+SENDER = """
+import sys, time
+sys.path[:0] = [sys.argv[1]]
+import rospy
+from cloud_messages import bytes_class
+rospy.init_node("rival", anonymous=True, disable_signals=True)
+kind = bytes_class(sys.argv[3], sys.argv[4], open(sys.argv[5]).read())
+body = open(sys.argv[6], "rb").read()
+sender = rospy.Publisher(sys.argv[2], kind, queue_size=10)
+while True:
+    sender.publish(kind(body))
+    time.sleep(0.05)
+"""
+
+
+def start_rival(arena, topic, type_name, md5sum, text, body):
+    """A publisher of another process that sends bytes as a type until it is ended."""
+    command = [sys.executable, arena.write("rival/sender.py", SENDER), REPOSITORY + "/test/faults", topic, type_name, md5sum,
+               arena.write("rival/definition", text), arena.write("rival/body", body)]
+    with open(arena.path("logs/rival.log"), "wb") as log:
+        return processes.start(command, arena.environment, log)

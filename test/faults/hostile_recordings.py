@@ -138,7 +138,7 @@ def at_once(arena, works, seconds=60.0):
     expect(not problems, "; ".join(problems[:3]))
 
 
-@group.attack(deadline=150.0)
+@group.attack(deadline=150.0, storms=False)
 def two_hundred_at_once(arena):
     """Of those with one name one is written; each that says so is whole, and nothing else is there."""
     shutil.rmtree(folder_of(arena, "same"), ignore_errors=True)
@@ -190,7 +190,7 @@ def while_the_scene_changes(arena, change, body_b, seconds=8.0):
     require_no_leftovers(arena)
 
 
-@group.attack(deadline=120.0)
+@group.attack(deadline=120.0, storms=False)
 def while_a_pair_is_removed_and_added(arena):
     from shape_msgs.msg import SolidPrimitive
     from geometry_msgs.msg import Pose
@@ -208,7 +208,7 @@ def while_a_pair_is_removed_and_added(arena):
     while_the_scene_changes(arena, change, "guest")
 
 
-@group.attack(deadline=120.0)
+@group.attack(deadline=120.0, storms=False)
 def while_its_pair_is_switched(arena):
     def change():
         for enabled in (False, True):
@@ -217,7 +217,7 @@ def while_its_pair_is_switched(arena):
     while_the_scene_changes(arena, change, B)
 
 
-@group.attack(deadline=120.0)
+@group.attack(deadline=120.0, storms=False)
 def while_the_scene_is_loaded_again(arena):
     def change():
         call(arena, "reload", timeout=60.0)
@@ -258,8 +258,7 @@ def damaged(label, damage, *words, seconds=60.0, fast=False):
 
 
 def path(folder, name):
-    found = os.path.join(folder, name)
-    return found
+    return os.path.join(folder, name)
 
 
 def write(folder, name, content):

@@ -20,9 +20,10 @@ import traceback
 from arena import Arena
 from attacks import Failed, expect, groups, shortened
 
-MODULES = ("mesh_faults", "hostile_queries", "hostile_bodies", "hostile_services", "hostile_operations",
-           "hostile_motions", "hostile_recordings", "hostile_clouds", "bridge_faults", "cob_faults", "hostile_wire", "races", "tf_faults",
-           "clock_faults", "parameter_faults", "scene_faults", "tool_faults", "bag_faults", "python_faults", "launch_faults")
+MODULES = ("mesh_faults", "hostile_queries", "hostile_bodies", "hostile_services", "hostile_operations", "hostile_motions",
+           "hostile_recordings", "hostile_clouds", "bridge_faults", "cob_faults", "hostile_wire", "races", "tf_faults",
+           "clock_faults", "parameter_faults", "scene_faults", "tool_faults", "bag_faults", "python_faults",
+           "launch_faults")
 GRACE = 60.0  # s after its deadline when a hanging attack is abandoned
 
 

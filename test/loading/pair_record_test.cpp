@@ -302,6 +302,9 @@ TEST_F(PairRecordTest, RefusesAFolderThatIsDamaged) {
       {"answers.csv", change("answers.csv", "\n0,", "\nx,"), "column index is 'x'"},
       {"answers.csv", change("answers.csv", "\n0,", "\n0.5,"), "column index is '0.5', of 25 poses"},
       {"answers.csv", change("answers.csv", "\n1,", "\n0,"), "two lines have the index 0"},
+      {"answers.csv", content("answers.csv") + "24" + row.substr(row.find(',')) + "\n",
+       "answers.csv:27: there are more lines below the header than 25, as record.yaml says"},
+      {"answers.csv", std::string(1000, ',') + "\n", "answers.csv:1: the columns are not those"},
       {"answers.csv", change("answers.csv", row, "0,nan" + row.substr(row.find(',', 2))),
        "answers.csv:2: column distance is 'nan'"},
       {"answers.csv", change("answers.csv", "index,distance", "index,depth"),
@@ -448,7 +451,15 @@ TEST_F(PairRecordTest, FoldersAreWholeOrNotThere) {
   EXPECT_EQ(std::distance(begin(all), end(all)), 1);
   for (const char* name : {"", ".", "..", "a/", "../x", "/etc/x"})
     EXPECT_THROW(placeBelow(folder_.path(), name, "folder"), Error) << name;
-  EXPECT_THROW(placeBelow("", "x", "folder"), Error);
+  try {
+    placeBelow("", "x", "folder");
+    FAIL() << "there is no folder";
+  } catch (const Error& error) {
+    EXPECT_STREQ(
+        error.what(),
+        "folder: no folder is known in which anything may be saved (set ~save_folder, and start the node "
+        "again)");
+  }
 }
 
 }  // namespace
