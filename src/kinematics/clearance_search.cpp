@@ -90,13 +90,13 @@ void ClearanceSearch::sharpenLeast() {
     take(sampler_.sampleExactly(pair, moment, least_->sample.triangles), pair);
   };
   look(least_->sample.moment);
-  const auto isOpen = [&] {
+  const auto is_open = [&] {
     return least_->sample.distance > 0.0 && least_->sample.distance <= parameters_.tolerance;
   };
   for (double step = kFirstStep; step > kLastStep; step *= 0.5) {
     for (const double signed_step : {step, -step}) {
       double before = kInfinity;
-      while (isOpen() && least_->sample.distance < before) {
+      while (is_open() && least_->sample.distance < before) {
         before = least_->sample.distance;
         look(std::clamp(least_->sample.moment + signed_step, 0.0, sampler_.paths().end()));
       }

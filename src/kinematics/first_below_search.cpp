@@ -65,9 +65,9 @@ FirstBelowSearch::First FirstBelowSearch::find(const std::vector<ClearanceGap>& 
     }
     sampler_.report([&] { return progress; });
   }
-  const auto endAt = [&](double moment) { first_.proven_until = std::min(first_.proven_until, moment); };
-  open_.visit([&](const ClearanceGap& gap) { endAt(gap.left.moment); });
-  if (first_.moment) endAt(*first_.moment);
+  const auto end_at = [&](double moment) { first_.proven_until = std::min(first_.proven_until, moment); };
+  open_.visit([&](const ClearanceGap& gap) { end_at(gap.left.moment); });
+  if (first_.moment) end_at(*first_.moment);
   return first_;
 }
 

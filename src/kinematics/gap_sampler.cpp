@@ -51,7 +51,7 @@ ClearanceSample GapSampler::sampleExactly(std::size_t pair, double moment, const
   SampleRequest request;
   request.aim = request.need = std::numeric_limits<double>::infinity();
   request.allows_boxes = false;
-  const ClearanceSample sample = sampleAt(pairs_[pair], moment, request, &start, 1, false, workspace, limit_);
+  ClearanceSample sample = sampleAt(pairs_[pair], moment, request, &start, 1, false, workspace, limit_);
   count();
   return sample;
 }

@@ -196,7 +196,8 @@ class JointPaths {
   }
 
   // Runs straight whatever velocities are given.
-  void addFloating(const TreeJoint& joint, const Columns& columns, PathElement element, BodyPath& link) {
+  void addFloating(const TreeJoint& joint, const Columns& columns, const PathElement& element,
+                   BodyPath& link) {
     paths_.velocities_ignored = paths_.velocities_ignored || motion_.velocities.size() > 0;
     const auto number = [&](std::size_t row, std::size_t k) {
       return motion_.positions(static_cast<Eigen::Index>(row),

@@ -64,7 +64,7 @@ RelativePath::RelativePath(const MotionPaths& paths, const BodyPath& a, const Bo
          a.elements[common] == b.elements[common]) {
     ++common;
   }
-  const auto startOf = [&](const BodyPath& path) {
+  const auto start_of = [&](const BodyPath& path) {
     Branch branch;
     branch.start = common == 0 ? path.start : Eigen::Isometry3d::Identity();
     branch.tail = path.tail;
@@ -77,8 +77,8 @@ RelativePath::RelativePath(const MotionPaths& paths, const BodyPath& a, const Bo
     start_length_ += path.start.translation().norm() + branch.start.translation().norm();
     return branch;
   };
-  a_ = startOf(a);
-  b_ = startOf(b);
+  a_ = start_of(a);
+  b_ = start_of(b);
   // The base is where A's branch begins: what is far from the world's origin cancels once, here.
   b_.start = a_.start.inverse(Eigen::Isometry) * b_.start;
   a_.start = Eigen::Isometry3d::Identity();

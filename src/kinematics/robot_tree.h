@@ -62,7 +62,7 @@ class RobotTree {
   void setAxes(TreeJoint& joint) const;
   void addNumbers(TreeJoint& joint, const std::string& prefix);
   void follow(TreeJoint& joint, const std::string& prefix);
-  const TreeJoint* findJoint(const std::string& name) const;
+  const TreeJoint* findJoint(const std::string& prefixed) const;
 
   std::unordered_map<std::string, std::size_t> position_of_;
   std::unordered_map<std::string, std::size_t> joint_of_;  ///< without a prefix

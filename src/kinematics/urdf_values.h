@@ -11,6 +11,6 @@ namespace concave_distance::detail {
 // Conversions of urdfdom's values.
 
 Eigen::Isometry3d toIsometry(const urdf::Pose& pose);
-RobotJoint toJoint(const urdf::Joint& joint);
+RobotJoint toJoint(const urdf::Joint& given);
 
 }  // namespace concave_distance::detail

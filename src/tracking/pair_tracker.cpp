@@ -43,12 +43,14 @@ struct PairTracker::State {
   PairCycle cycle;
 };
 
+// Users build on this signature. NOLINTBEGIN(performance-unnecessary-value-param)
 PairTracker::PairTracker(std::string name, std::shared_ptr<const BodyMesh> a,
                          std::shared_ptr<const BodyMesh> b, const TrackerParameters& parameters,
                          std::uint64_t largest_used_id) {
   requireBodies(name, a, b);
   state_ = std::make_unique<State>(std::move(name), a, b, parameters, largest_used_id);
 }
+// NOLINTEND(performance-unnecessary-value-param)
 PairTracker::~PairTracker() = default;
 PairTracker::PairTracker(PairTracker&&) noexcept = default;
 PairTracker& PairTracker::operator=(PairTracker&&) noexcept = default;

@@ -84,8 +84,6 @@ std::string wordsFor(const GuardDecision& decision, const Constraints* message, 
     case GuardReason::BadCommand:
       return fault;
     case GuardReason::NotFinite:
-      if (!fault.empty()) return fault;
-      break;
     case GuardReason::Unknown:
       if (!fault.empty()) return fault;
       break;

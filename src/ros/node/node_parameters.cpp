@@ -111,8 +111,8 @@ double cycleBudget(const std::optional<double>& budget, double rate) {
   return *budget;
 }
 
-NodeParameters parseNodeParameters(XmlRpc::XmlRpcValue values, std::vector<std::string>& unknown) {
-  ParameterReader reader(std::move(values), "~");
+NodeParameters parseNodeParameters(const XmlRpc::XmlRpcValue& values, std::vector<std::string>& unknown) {
+  ParameterReader reader(values, "~");
   refuseRenamed(reader);
   NodeParameters parameters;
   reader.read(nodeParameterTable(), false, parameters);

@@ -64,6 +64,6 @@ double cycleBudget(const std::optional<double>& budget, double rate);
 ///        invalid value (nothing set) counts as empty
 /// @param unknown receives the names in `values` that are no parameter of this node: spelling mistakes
 /// @throws Error naming the parameter, the value seen and what is allowed
-NodeParameters parseNodeParameters(XmlRpc::XmlRpcValue values, std::vector<std::string>& unknown);
+NodeParameters parseNodeParameters(const XmlRpc::XmlRpcValue& values, std::vector<std::string>& unknown);
 
 }  // namespace concave_distance
