@@ -297,7 +297,8 @@ TEST(CloudMessage, WrongMapsAreRefusedWithTheirReason) {
       const std::string said = refusal(asReceived(message));
       EXPECT_NE(said.find(text), std::string::npos) << text << ": " << said;
     };
-    for (const double resolution : {0.0, -1.0, std::nan(""), std::numeric_limits<double>::infinity()})
+    for (const double resolution :
+         {0.0, -1.0, std::nan(""), std::numeric_limits<double>::infinity(), 1e-7, 5e-324, 1e7, 1e300})
       expect("resolution", [&](OctomapMessage& m) { m.resolution = resolution; });
     expect("'CountingOcTree'", [](OctomapMessage& m) { m.id = "CountingOcTree"; });
     expect("cut after", [](OctomapMessage& m) { m.data.pop_back(); });
