@@ -22,6 +22,44 @@ source_ros() {
   fi
 }
 
+# use_build: what follows finds the programs and messages of build_dir.
+use_build() {
+  source_ros
+  set +u
+  # shellcheck disable=SC1091
+  . "$build_dir/devel/setup.bash"
+  set -u
+}
+
+# use_own_master PORT LOG_FOLDER: what follows has a ROS master of its own, beside one that may run.
+use_own_master() {
+  use_build
+  export ROS_MASTER_URI="http://localhost:$1" ROS_HOSTNAME=localhost ROS_LOG_DIR="$2"
+  unset ROS_IP
+  mkdir -p "$ROS_LOG_DIR"
+  if rosparam get /run_id >/dev/null 2>&1; then die "a master already runs at $ROS_MASTER_URI: end it first"; fi
+}
+
+# start_scene LOG ARGUMENTS ...: starts roslaunch with that master and waits for it; end_scene ends it, at the latest at exit.
+launch_pid=
+start_scene() {
+  local log="$1"
+  shift
+  setsid roslaunch "--port=${ROS_MASTER_URI##*:}" concave_distance "$@" </dev/null >"$log" 2>&1 &
+  launch_pid=$!
+  trap end_scene EXIT
+  until rosparam get /run_id >/dev/null 2>&1; do
+    kill -0 "$launch_pid" 2>/dev/null || { tail -n 30 "$log" >&2 && die "the scene did not start"; }
+    sleep 0.2
+  done
+}
+end_scene() {
+  [ -n "$launch_pid" ] || return 0
+  kill -INT "$launch_pid" 2>/dev/null || true
+  wait "$launch_pid" 2>/dev/null || true
+  launch_pid=
+}
+
 # Parallel jobs: one per core, but 1.5 GB of memory for each compiler.
 job_count() {
   local cores by_memory

@@ -32,10 +32,7 @@ done
 source_ros
 say "building (some minutes the first time)"
 "$package_dir/scripts/build.sh" demo -DCONCAVE_DISTANCE_WITH_ROS=ON </dev/null || die "the build failed: see the first error above"
-set +u
-# shellcheck disable=SC1091
-. "$build_dir/devel/setup.bash"
-set -u
+use_build
 
 display_works() {
   [ -n "${DISPLAY:-}" ] && /usr/bin/python3 -c '
@@ -65,12 +62,6 @@ launch_log="$ROS_LOG_DIR/demo_$scene.log"
 say "starting the scene '$scene' (its log: ${launch_log#"$package_dir"/}); Ctrl-C ends it"
 setsid roslaunch concave_distance "$scene.launch" rviz:="$rviz" </dev/null >"$launch_log" 2>&1 &
 launch_pid=$!
-# shellcheck disable=SC2317  # called by the traps
-end_scene() {
-  trap - EXIT INT TERM
-  kill -INT "$launch_pid" 2>/dev/null || true
-  wait "$launch_pid" 2>/dev/null || true
-}
 trap end_scene EXIT
 trap 'end_scene; exit 130' INT TERM
 

@@ -6,7 +6,6 @@
 set -euo pipefail
 # shellcheck source=scripts/common.sh
 . "$(dirname "${BASH_SOURCE[0]}")/common.sh"
-source_ros
 
 messages=50
 output="$package_dir/doc/results/clouds.csv"
@@ -19,22 +18,7 @@ while [ $# -gt 0 ]; do
   shift
 done
 [ -x "$build_dir/devel/lib/concave_distance/distance_node" ] || die "the node is not built: run scripts/build.sh all"
-set +u
-# shellcheck disable=SC1091
-. "$build_dir/devel/setup.bash"
-set -u
-# A master of its own, beside one that may run.
-export ROS_MASTER_URI=http://localhost:11412 ROS_HOSTNAME=localhost ROS_LOG_DIR="$build_dir/ros_logs"
-unset ROS_IP
-mkdir -p "$ROS_LOG_DIR" "$(dirname "$output")"
-if rosparam get /run_id >/dev/null 2>&1; then die "a master already runs at $ROS_MASTER_URI: end it first"; fi
-
-setsid roslaunch --port=11412 concave_distance clouds.launch rviz:=false camera_rate:=0 </dev/null \
-  >"$ROS_LOG_DIR/measure_clouds.log" 2>&1 &
-launch_pid=$!
-trap 'kill -INT "$launch_pid" 2>/dev/null || true; wait "$launch_pid" 2>/dev/null || true' EXIT
-until rosparam get /run_id >/dev/null 2>&1; do
-  kill -0 "$launch_pid" 2>/dev/null || { tail -n 30 "$ROS_LOG_DIR/measure_clouds.log" >&2 && die "the scene did not start"; }
-  sleep 0.2
-done
+use_own_master 11412 "$build_dir/ros_logs"
+mkdir -p "$(dirname "$output")"
+start_scene "$ROS_LOG_DIR/measure_clouds.log" clouds.launch rviz:=false camera_rate:=0
 /usr/bin/python3 "$package_dir/scripts/measure_clouds.py" --messages "$messages" --output "$output"

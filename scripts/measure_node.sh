@@ -13,7 +13,6 @@
 set -euo pipefail
 # shellcheck source=scripts/common.sh
 . "$(dirname "${BASH_SOURCE[0]}")/common.sh"
-source_ros
 
 seconds=60
 output="$package_dir/doc/results/node_timing.txt"
@@ -35,24 +34,8 @@ while [ $# -gt 0 ]; do
 done
 [ ${#scenes[@]} -gt 0 ] || scenes=(pair oversampled robot robot_all)
 [ -x "$build_dir/devel/lib/concave_distance/node_timing" ] || die "node_timing is not built: run scripts/build.sh all"
-set +u
-# shellcheck disable=SC1091
-. "$build_dir/devel/setup.bash"
-set -u
-# A master of its own, beside one that may run.
-export ROS_MASTER_URI=http://localhost:11411 ROS_HOSTNAME=localhost ROS_LOG_DIR="$build_dir/ros_logs"
-unset ROS_IP
-mkdir -p "$ROS_LOG_DIR" "$(dirname "$output")"
-if rosparam get /run_id >/dev/null 2>&1; then die "a master already runs at $ROS_MASTER_URI: end it first"; fi
-
-launch_pid=
-end_scene() {
-  [ -n "$launch_pid" ] || return 0
-  kill -INT "$launch_pid" 2>/dev/null || true
-  wait "$launch_pid" 2>/dev/null || true
-  launch_pid=
-}
-trap end_scene EXIT
+use_own_master 11411 "$build_dir/ros_logs"
+mkdir -p "$(dirname "$output")"
 
 # The share of all cores' time that was idle in the next three seconds, in percent.
 idle_share() {
@@ -71,12 +54,7 @@ measure() { # <title> <topic, or distances+markers: without and with markers> <c
     until [ "$(idle_share)" -ge 90 ]; do :; done
   fi
   load="$(cut -d ' ' -f 1-3 /proc/loadavg)"
-  setsid roslaunch --port=11411 concave_distance "$@" rviz:=false launch_prefix:="$prefix" </dev/null >"$ROS_LOG_DIR/measure_node.log" 2>&1 &
-  launch_pid=$!
-  until rosparam get /run_id >/dev/null 2>&1; do
-    kill -0 "$launch_pid" 2>/dev/null || { tail -n 30 "$ROS_LOG_DIR/measure_node.log" >&2 && die "the scene did not start"; }
-    sleep 0.2
-  done
+  start_scene "$ROS_LOG_DIR/measure_node.log" "$@" rviz:=false launch_prefix:="$prefix"
   local with
   for with in "${markers[@]}"; do
     echo "$title; subscribed: $topic$([ "$with" = false ] || echo " and markers"); roslaunch concave_distance ${*//$package_dir\//}"

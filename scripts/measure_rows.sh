@@ -7,11 +7,7 @@
 set -euo pipefail
 # shellcheck source=scripts/common.sh
 . "$(dirname "${BASH_SOURCE[0]}")/common.sh"
-source_ros
-set +u
-# shellcheck disable=SC1091
-. "$build_dir/devel/setup.bash"
-set -u
+use_build
 export ROS_MASTER_URI="${ROS_MASTER_URI:-http://localhost:11321}" ROS_HOSTNAME="${ROS_HOSTNAME:-localhost}"
 output="$(realpath -m "${1:-$build_dir/rows}")"
 rm -rf "$output"

@@ -14,6 +14,7 @@ import provenance
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402  (the backend comes first)
 import numpy as np  # noqa: E402
+from geometry.poses import matrix_of_quaternion  # noqa: E402
 from mpl_toolkits.mplot3d.art3d import Line3DCollection, Poly3DCollection  # noqa: E402
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
@@ -37,12 +38,6 @@ def read_scene(path):
             elif row[0] == "region":
                 regions.append(np.array([float(cell) for cell in row[2:17]]))
     return pose, regions
-
-
-def rotation(x, y, z, w):
-    return np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
-                     [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
-                     [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)]])
 
 
 def crossings(edges_of, through):
@@ -76,7 +71,7 @@ def curves(first, second):
 def main():
     pose, regions = read_scene(ROOT / "doc" / "results" / "interference.csv")
     fixture = read_stl(ROOT / "meshes" / "thesis" / "fixture.stl")
-    battery = read_stl(ROOT / "meshes" / "thesis" / "battery.stl") @ rotation(*pose[3:]).T + pose[:3]
+    battery = read_stl(ROOT / "meshes" / "thesis" / "battery.stl") @ matrix_of_quaternion(pose[3:]).T + pose[:3]
     segments = curves(fixture, battery)
     everything = np.vstack([fixture.reshape(-1, 3), battery.reshape(-1, 3)])
     whole = 0.5 * (everything.min(axis=0) + everything.max(axis=0))

@@ -21,7 +21,6 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 RESULTS = ROOT / "doc" / "results"
 IMAGES = ROOT / "doc" / "images"
 MANOEUVRE = ROOT / "thesis" / "doc" / "images" / "manoeuvre.png"
-RATES = {49: "10 Hz", 499: "100 Hz", 4999: "1000 Hz"}
 
 
 def rows_of(name):

@@ -8,7 +8,6 @@
 set -euo pipefail
 # shellcheck source=scripts/common.sh
 . "$(dirname "${BASH_SOURCE[0]}")/common.sh"
-source_ros
 
 minutes=180
 seed=1
@@ -31,27 +30,12 @@ programs="$build_dir/devel/lib/concave_distance"
 for program in distance_node velocity_guard joint_player; do
   [ -x "$programs/$program" ] || die "$program is not built: run scripts/build.sh demo"
 done
-set +u
-# shellcheck disable=SC1091
-. "$build_dir/devel/setup.bash"
-set -u
-# A master of its own, beside one that may run.
-export ROS_MASTER_URI=http://localhost:11414 ROS_HOSTNAME=localhost
-unset ROS_IP
 folder="$build_dir/soak"
-export ROS_LOG_DIR="$folder/ros_logs"
-if rosparam get /run_id >/dev/null 2>&1; then die "a master already runs at $ROS_MASTER_URI: end it first"; fi
+use_own_master 11414 "$folder/ros_logs"
 rm -rf "$folder"
 mkdir -p "$ROS_LOG_DIR" "$folder/bags" "$(dirname "$output")"
 
 /usr/bin/python3 "$package_dir/scripts/soak.py" --write-scene "$folder/scene.yaml"
-setsid roslaunch --port=11414 concave_distance soak.launch "scene:=$folder/scene.yaml" "bags:=$folder/bags" "launch_prefix:=$prefix" </dev/null \
-  >"$folder/soak.log" 2>&1 &
-launch_pid=$!
-trap 'kill -INT "$launch_pid" 2>/dev/null || true; wait "$launch_pid" 2>/dev/null || true' EXIT
-until rosparam get /run_id >/dev/null 2>&1; do
-  kill -0 "$launch_pid" 2>/dev/null || { tail -n 30 "$folder/soak.log" >&2 && die "the cell did not start"; }
-  sleep 0.2
-done
+start_scene "$folder/soak.log" soak.launch "scene:=$folder/scene.yaml" "bags:=$folder/bags" "launch_prefix:=$prefix"
 /usr/bin/python3 "$package_dir/scripts/soak.py" --launch-pid "$launch_pid" --program "$programs/distance_node" \
   --folder "$folder" --minutes "$minutes" --output "$output" --seed "$seed"

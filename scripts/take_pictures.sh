@@ -23,11 +23,7 @@ done
 for tool in Xvfb import compare; do
   command -v "$tool" >/dev/null || die "$tool is missing: apt-get install xvfb imagemagick"
 done
-source_ros
-set +u
-# shellcheck disable=SC1091
-. "$build_dir/devel/setup.bash"
-set -u
+use_build
 export ROS_MASTER_URI="${ROS_MASTER_URI:-http://localhost:11319}" ROS_HOSTNAME="${ROS_HOSTNAME:-localhost}"
 export LIBGL_ALWAYS_SOFTWARE=1 QT_X11_NO_MITSHM=1
 work="$(mktemp -d)"

@@ -17,7 +17,6 @@ PLATE_SIZE = (0.30, 0.30)
 PLATE_THICKNESS = 0.10
 HOLE_SIDES = 24
 HOLE_RADIUS = 0.0205  # of the corners; the flats are at 0.02033
-PEG_RADIUS = 0.0200
 
 # The plate of a press fit.
 RING_RADIUS, RING_HOLE, RING_THICKNESS, RING_SIDES = 0.030, 0.010, 0.020, 96

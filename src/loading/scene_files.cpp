@@ -15,6 +15,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* kNoFolder = "no folder is known in which anything may be saved";
+
 // Only a file that an earlier save has written may be replaced.
 void requireReplaceable(const std::string& path, bool overwrite) {
   std::error_code ignored;
@@ -43,14 +45,12 @@ std::string pathBelow(const std::string& folder, const std::string& path) {
   const fs::path given(path);
   if (given.extension() != ".yaml" || given.stem().empty())
     throw Error("path", "it is '" + path + "'", "name a file that ends in .yaml");
+  if (folder.empty()) throw Error("path", kNoFolder, "set ~save_folder, or write what get_scene answers");
   return placeBelow(folder, path, "path");
 }
 
 std::string placeBelow(const std::string& folder, const std::string& path, const std::string& field) {
-  if (folder.empty()) {
-    throw Error(field, "no folder is known in which anything may be saved",
-                "set ~save_folder, or write what get_scene answers");
-  }
+  if (folder.empty()) throw Error(field, kNoFolder, "set ~save_folder, and start the node again");
   const fs::path given(path);
   if (given.filename().empty() || given.filename() == "." || given.filename() == "..")
     throw Error(field, "it is '" + path + "'", "end it with a name");

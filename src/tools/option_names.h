@@ -15,14 +15,14 @@ inline std::string optionName(std::string parameter) {
 inline std::string withoutMarkdown(const std::string& sentence) {
   std::string text;
   for (std::size_t i = 0; i < sentence.size(); ++i) {
-    const char c = sentence[i];
-    if (c == '`' || c == '[') continue;
-    if (c != ']') {
-      text += c;
+    if (sentence[i] == '`') continue;
+    const std::size_t end = sentence[i] == '[' ? sentence.find(']', i) : std::string::npos;
+    if (end == std::string::npos || sentence.compare(end, 2, "](") != 0) {
+      text += sentence[i];
       continue;
     }
-    if (i + 1 < sentence.size() && sentence[i + 1] == '(')
-      i = std::min(sentence.find(')', i), sentence.size());
+    text.append(sentence, i + 1, end - i - 1);
+    i = std::min(sentence.find(')', end), sentence.size() - 1);
   }
   return text;
 }

@@ -451,7 +451,15 @@ TEST_F(PairRecordTest, FoldersAreWholeOrNotThere) {
   EXPECT_EQ(std::distance(begin(all), end(all)), 1);
   for (const char* name : {"", ".", "..", "a/", "../x", "/etc/x"})
     EXPECT_THROW(placeBelow(folder_.path(), name, "folder"), Error) << name;
-  EXPECT_THROW(placeBelow("", "x", "folder"), Error);
+  try {
+    placeBelow("", "x", "folder");
+    FAIL() << "there is no folder";
+  } catch (const Error& error) {
+    EXPECT_STREQ(
+        error.what(),
+        "folder: no folder is known in which anything may be saved (set ~save_folder, and start the node "
+        "again)");
+  }
 }
 
 }  // namespace

@@ -19,7 +19,7 @@ from bridge_problems import DiagnosticsPublisher, Problems, positive_parameter, 
 from distance_node_client import DistanceNodeClient  # noqa: E402
 from octomap_relay import OctomapRelay  # noqa: E402
 from planning_scene_source import PlanningSceneSource  # noqa: E402
-from scene_operations import Names, wanted_bodies, wanted_contacts, wanted_margins  # noqa: E402
+from scene_operations import Names, padding_without_body, wanted_bodies, wanted_contacts, wanted_margins  # noqa: E402
 
 
 class MoveItBridge:
@@ -63,6 +63,11 @@ class MoveItBridge:
             if scale != 1.0:
                 texts["planning scene, link_scale of '%s'" % link] = (
                     "it is %g, but scales are not served: distances are those of the link at its own size" % scale)
+        if self._node.scene:
+            for link, body in padding_without_body(state, self._names, self._node.scene).items():
+                texts["planning scene, link_padding of '%s'" % link] = (
+                    "the distance node has no body '%s', so that nothing is padded (its names may begin with ~link_prefix; "
+                    "a link without geometry is none)" % body)
         if self._octomap.problem():
             texts["planning scene, octomap"] = self._octomap.problem()
         self._problems.keep(texts, lambda name: name.startswith("planning scene, "))

@@ -182,6 +182,12 @@ def wanted_margins(state, names, node, own):
     return {name: max(margin, padded.get(name, 0.0)) for name, margin in own.items()}
 
 
+def padding_without_body(state, names, node):
+    """Bodies that the distance node has not, by the links that the planning scene pads."""
+    return {link: names.link(link) for link, padding in state.padding.items()
+            if padding > 0.0 and names.link(link) not in node.margins}
+
+
 def plan(wanted, contacts, margins, node, refused=frozenset()):
     """Operations that bring the distance node to what is wanted, and the scene that it then has.
 

@@ -10,7 +10,7 @@ from planning_scene_state import PlanningSceneState
 from planning_scene_values import (
     ADD as ADD_OBJECT, AllowedContacts, AttachedMessage, ObjectMessage, SceneMessage, Shape)
 from scene_operations import (
-    ADD, ALLOW_CONTACT, ATTACH, DETACH, MOVE, REMOVE, SET_MARGIN, Names, NodeScene, plan, plane_mesh,
+    ADD, ALLOW_CONTACT, ATTACH, DETACH, MOVE, REMOVE, SET_MARGIN, Names, NodeScene, padding_without_body, plan, plane_mesh,
     wanted_bodies, wanted_contacts, wanted_margins)
 
 BALL, BOX = Shape("sphere", (0.1,)), Shape("box", (1.0, 2.0, 3.0))
@@ -265,7 +265,10 @@ class Operations(unittest.TestCase):
     def test_padding_is_the_margin_of_links_and_of_what_they_hold(self):
         self.node.margins["palm"] = 0.03
         self.follower = Follower(self.node)
-        self.use(attached=(self.held(),), padding=(("wrist", 0.01), ("palm", 0.02), ("unknown", 0.5)))
+        self.use(attached=(self.held(),), padding=(("wrist", 0.01), ("palm", 0.02), ("unknown", 0.5), ("bare", 0.0)))
+        self.assertEqual(padding_without_body(self.state, NAMES, self.follower.scene), {"unknown": "unknown"})
+        self.assertEqual(padding_without_body(self.state, Names("moveit/", "left/"), self.follower.scene),
+                         {"wrist": "left/wrist", "palm": "left/palm", "unknown": "left/unknown"})
         self.assertEqual(self.node.margins, {"wrist": 0.01, "finger": 0.0, "palm": 0.03})
         self.assertEqual(self.node.bodies["moveit/ball"][5], 0.01)
         self.use(padding=(("wrist", 0.0),))
