@@ -169,7 +169,7 @@ TEST(CloudMessage, CountsWithoutBytesAreRefused) {
   ASSERT_EQ(refusal(withCount(good, fields, 4)) + refusal(withCount(good, data, 24)) +
                 refusal(withCount(good_map, good_map.size() - 6, 2)),
             "");
-  for (const std::uint32_t count : {25U, 60'000'000U, 0xffffffffU}) {
+  for (const std::uint32_t count : {26U, 60'000'000U, 0xffffffffU}) {
     const std::string text = "an array of " + std::to_string(count) + " has ";
     for (const std::string& said :
          {refusal(withCount(good, fields, count)), refusal(withCount(good, data, count)),
