@@ -2,7 +2,6 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <cmath>
 
 #include "base/ascii.h"
 #include "kinematics/frame_name.h"
@@ -39,11 +38,6 @@ Eigen::Vector4d readColour(const YamlValue& value) {
         parts[i].number("from 0 to 1", [](double c) { return c >= 0.0 && c <= 1.0; });
   }
   return colour;
-}
-
-double readMargin(const YamlValue& value) {
-  return value.number("a number from 0, metres",
-                      [](double margin) { return margin >= 0.0 && std::isfinite(margin); });
 }
 
 /// Reads what robots and bodies may say each for itself, else `defaults` say.
@@ -108,7 +102,7 @@ std::map<std::string, LinkSpec> readLinks(const YamlValue& value) {
     YamlMap map(said, "a map with margin and label");
     LinkSpec& link = links[name];
     link.where = said.where();
-    if (auto v = map.take("margin")) link.margin = readMargin(*v);
+    if (auto v = map.take("margin")) link.margin = readLengthOrZero(*v);
     if (auto v = map.take("label")) link.label = readLabel(*v);
     map.finish();
   }
@@ -116,6 +110,12 @@ std::map<std::string, LinkSpec> readLinks(const YamlValue& value) {
 }
 
 }  // namespace
+
+std::string readPlainText(const YamlValue& value) {
+  std::string text = value.text();
+  if (isPattern(text)) value.refuse("a text without * ? [");
+  return text;
+}
 
 void requirePairName(const YamlValue& value, const std::string& name) {
   const auto allowed = [](char c) { return isLetterOrDigit(c) || c == '_' || c == '/'; };
@@ -138,13 +138,9 @@ RobotSpec readRobotSpec(const YamlValue& value, const BodyDefaults& defaults) {
   robot.where = value.where();
   readOneOf(map, "description", "urdf", robot.description, robot.urdf, true);
   readOneOf(map, "semantic_description", "srdf", robot.semantic_description, robot.srdf, false);
-  if (auto v = map.take("name")) {
-    robot.name = v->text();
-    if (isPattern(robot.name)) v->refuse("a text without * ? [");
-  }
+  if (auto v = map.take("name")) robot.name = readPlainText(*v);
   if (auto v = map.take("prefix")) {
-    robot.prefix = withoutLeadingSlash(v->text());  // else tf2 would refuse every frame
-    if (isPattern(robot.prefix)) v->refuse("a text without * ? [");
+    robot.prefix = withoutLeadingSlash(readPlainText(*v));  // else tf2 would refuse every frame
   }
   robot.geometry = defaults.geometry;
   if (auto v = map.take("geometry")) robot.geometry = v->choice(kGeometrySources);
@@ -154,7 +150,7 @@ RobotSpec readRobotSpec(const YamlValue& value, const BodyDefaults& defaults) {
       robot.skip_links.push_back(link.text());
     }
   }
-  if (auto v = map.take("margin")) robot.margin = readMargin(*v);
+  if (auto v = map.take("margin")) robot.margin = readLengthOrZero(*v);
   if (auto v = map.take("links")) robot.own = readLinks(*v);
   readOverDefaults(map, defaults, robot.max_edge_length, robot.chord_error, robot.material);
   map.finish();
@@ -164,7 +160,7 @@ RobotSpec readRobotSpec(const YamlValue& value, const BodyDefaults& defaults) {
 void readLooks(YamlMap& map, BodySpec& body) {
   if (auto v = map.take("label")) body.label = readLabel(*v);
   if (auto v = map.take("colour")) body.colour = readColour(*v);
-  if (auto v = map.take("margin")) body.margin = readMargin(*v);
+  if (auto v = map.take("margin")) body.margin = readLengthOrZero(*v);
 }
 
 BodySpec readBodySpec(const YamlValue& value, const BodyDefaults& defaults) {
@@ -173,8 +169,7 @@ BodySpec readBodySpec(const YamlValue& value, const BodyDefaults& defaults) {
   body.where = value.where();
   BodyDescription& description = body.description;
   const YamlValue name = map.require("name", "give every body a name");
-  description.name = name.text();
-  if (isPattern(description.name)) name.refuse("a text without * ? [");
+  description.name = readPlainText(name);
   description.frame = description.name;
   if (auto v = map.take("frame")) {
     description.frame = requireFrameName(v->text(), v->where());

@@ -17,6 +17,9 @@ struct BodyDefaults {
   Material material;
 };
 
+/// Returns a text that is no pattern. @throws Error naming the value
+std::string readPlainText(const YamlValue& value);
+
 /// Checks a name, or a part of one, that may be part of a topic's name. @throws Error naming the value
 void requirePairName(const YamlValue& value, const std::string& name);
 

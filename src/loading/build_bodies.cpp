@@ -39,6 +39,10 @@ void forEachBody(std::vector<BuiltBody>& built, LoadProgress* progress, const St
                     });
 }
 
+std::string foundBelow(const std::string& resource, const std::string& folder) {
+  return "'" + resource + "' was found below " + folder + "; other missing meshes are looked for there too";
+}
+
 // The caller's locator need not be safe between threads: files are looked up one by one, beforehand.
 void locateAll(std::vector<BodySource>& sources, const BuildOptions& options, std::vector<BuiltBody>& built) {
   std::set<std::string> reported;
@@ -53,8 +57,7 @@ void locateAll(std::vector<BodySource>& sources, const BuildOptions& options, st
         if (below.empty()) continue;
         sources[i].in_robot_model = false;  // rviz does not find the mesh
         if (reported.insert(below).second) {
-          built[i].notes.push_back("'" + resource + "' was found below " + below +
-                                   "; other missing meshes are looked for there too");
+          built[i].notes.push_back(foundBelow(resource, below));
         }
       }
     } catch (const std::exception& exception) {

@@ -6,7 +6,6 @@
 
 #include "body_spec_reader.h"
 #include "kinematics/frame_name.h"
-#include "scene/name_pattern.h"
 
 namespace concave_distance::detail {
 namespace {
@@ -59,8 +58,7 @@ BodySpec readCloudSpec(const YamlValue& value) {
   body.where = value.where();
   BodyDescription& description = body.description;
   const YamlValue name = map.require("name", "give every cloud a name");
-  description.name = name.text();
-  if (isPattern(description.name)) name.refuse("a text without * ? [");
+  description.name = readPlainText(name);
   const YamlValue frame =
       map.require("frame", "name the tf frame in which the voxels stand, such as the robot's base");
   description.frame = requireFrameName(frame.text(), frame.where());

@@ -2,24 +2,22 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <set>
 #include <system_error>
 #include <utility>
 
 #include "attach_bodies.h"
-#include "base/number_text.h"
 #include "build_bodies.h"
 #include "concave_distance/base/error.h"
 #include "mesh/surface/mesh_topology.h"
 #include "robot_at_rest.h"
 #include "robot_description.h"
+#include "robot_texts.h"
 #include "scene/body_pool.h"
 #include "scene_parts.h"
 #include "scene_spec.h"
 #include "select_pairs.h"
-#include "semantic_description.h"
 #include "settings_reader.h"
 
 namespace concave_distance {
@@ -36,87 +34,7 @@ using detail::SelectedPair;
 
 // Enough to see what is missing; a list cut short says so.
 constexpr std::size_t kMostPairsListed = 10;
-constexpr std::uintmax_t kLongestFile = 64'000'000;  // bytes, of a scene file, URDF or SRDF
 constexpr const char* kSemanticDescription = "robot_description_semantic";
-
-std::string readFile(const std::string& path, const std::string& where) {
-  std::error_code ignored;
-  std::ifstream stream;
-  // A folder can be opened, and fails only when it is read.
-  if (std::filesystem::is_regular_file(path, ignored)) stream.open(path, std::ios::binary);
-  if (const auto size = std::filesystem::file_size(path, ignored); stream.is_open() && size > kLongestFile) {
-    throw Error(where, "'" + path + "' has " + std::to_string(size) + " bytes",
-                "allowed: at most " + std::to_string(kLongestFile));
-  }
-  TextStream text;
-  if (stream.is_open()) text << stream.rdbuf();
-  if (!stream.is_open() || stream.bad()) {
-    throw Error(where, "'" + path + "' cannot be read", "check the path and its permissions");
-  }
-  return text.str();
-}
-
-std::string folderOf(const std::string& path) {
-  const std::string folder = std::filesystem::path(path).parent_path().string();
-  return folder.empty() ? "." : folder;
-}
-
-DescriptionText textOfParameter(const std::string& parameter, const std::string& where,
-                                const SceneLoadOptions& options) {
-  const auto found = options.descriptions.find(parameter);
-  if (found == options.descriptions.end()) {
-    throw Error(where, "there is no parameter '" + parameter + "'",
-                "set it to the text of the description, or name a file by urdf or srdf");
-  }
-  return {found->second, "parameter " + parameter, ""};
-}
-
-DescriptionText textOfFile(const std::string& resource, const std::string& where,
-                           const std::string& base_folder, const SceneLoadOptions& options) {
-  try {
-    const std::string path = locateResource(resource, base_folder, options.package_locator);
-    return {readFile(path, path), path, folderOf(path)};
-  } catch (const Error& error) {
-    throw Error(where + ", " + error.where(), error.whatIsWrong(), error.remedy());
-  }
-}
-
-SceneProblem problemOf(const Error& error, const std::string& consequence) {
-  return {error.where(), error.whatIsWrong() + " (" + error.remedy() + "); " + consequence};
-}
-
-// An SRDF that cannot be read is a problem of the scene: the robot is served without it.
-void addSemantics(const RobotSpec& spec, const RobotDescription& robot, const std::string& base_folder,
-                  const SceneLoadOptions& options, SceneParts& parts) {
-  if (spec.srdf.empty() && spec.semantic_description.empty()) return;
-  DescriptionText srdf;
-  if (spec.srdf.empty()) srdf = textOfParameter(spec.semantic_description, spec.where, options);
-  try {
-    if (!spec.srdf.empty()) srdf = textOfFile(spec.srdf, spec.where, base_folder, options);
-    detail::addSemantics(spec, detail::readSemanticDescription(srdf.text, srdf.where, robot), parts);
-  } catch (const Error& error) {
-    parts.problems.push_back(problemOf(error, "no pair is disabled by it, and it gives no groups"));
-  }
-}
-
-// So is a URDF that cannot be read: the other robots and the bodies are served.
-void addRobot(const RobotSpec& spec, const std::string& base_folder, const SceneLoadOptions& options,
-              SceneParts& parts) {
-  DescriptionText urdf;
-  RobotDescription robot;
-  if (spec.urdf.empty()) urdf = textOfParameter(spec.description, spec.where, options);
-  try {
-    if (!spec.urdf.empty()) urdf = textOfFile(spec.urdf, spec.where, base_folder, options);
-    robot = detail::readRobotDescription(urdf.text, urdf.where, spec.geometry);
-  } catch (const Error& error) {
-    parts.problems.push_back(problemOf(error, "no link of this robot is served"));
-    parts.robot_failed = true;
-    return;
-  }
-  detail::addRobot(spec, robot, urdf, parts);
-  parts.named_robots.back().base_folder = base_folder;
-  addSemantics(spec, robot, base_folder, options, parts);
-}
 
 // The bodies and pairs before anything is loaded; its bodies have no meshes.
 Scene outlineOf(const SceneParts& parts, const PairSelection& selection, const SceneSpec& spec) {
@@ -294,7 +212,7 @@ Scene loadSceneText(const std::string& yaml, const std::string& where, const std
                     const SceneLoadOptions& options) {
   const SceneSpec spec = detail::readSceneSpec(yaml, where, base_folder, options);
   SceneParts parts;
-  for (const RobotSpec& robot : spec.robots) addRobot(robot, base_folder, options, parts);
+  for (const RobotSpec& robot : spec.robots) detail::readRobot(robot, base_folder, options, parts);
   for (const detail::BodySpec& body : spec.bodies) detail::addBody(body, base_folder, parts);
   std::vector<std::pair<std::string, std::string>> joined_by_tf;
   for (const std::vector<std::string>& frames : spec.rigid_frames) {
@@ -310,12 +228,12 @@ Scene loadSceneText(const std::string& yaml, const std::string& where, const std
 }
 
 Scene loadSceneFile(const std::string& path, const SceneLoadOptions& options) {
-  return loadSceneText(readFile(path, "scene file"), path, folderOf(path), options);
+  return loadSceneText(detail::readTextFile(path, "scene file"), path, detail::folderOf(path), options);
 }
 
 std::vector<std::string> descriptionsOfSceneFile(const std::string& path) {
-  const SceneSpec spec =
-      detail::readSceneSpec(readFile(path, "scene file"), path, folderOf(path), SceneLoadOptions{});
+  const SceneSpec spec = detail::readSceneSpec(detail::readTextFile(path, "scene file"), path,
+                                               detail::folderOf(path), SceneLoadOptions{});
   std::vector<std::string> names;
   for (const RobotSpec& robot : spec.robots) {
     for (const std::string& name : {robot.description, robot.semantic_description}) {
@@ -340,12 +258,12 @@ Scene loadRobotScene(const std::string& urdf, const std::string& where, const Sc
   // A text that comes from no file is what the parameter robot_description holds, and rviz draws it.
   (is_file ? robot.urdf : robot.description) = where;
   SceneParts parts;
-  const DescriptionText text{urdf, where, is_file ? folderOf(where) : std::string()};
+  const DescriptionText text{urdf, where, is_file ? detail::folderOf(where) : std::string()};
   const RobotDescription description = detail::readRobotDescription(text.text, text.where, robot.geometry);
   detail::addRobot(robot, description, text, parts);
   if (options.descriptions.count(kSemanticDescription) != 0) {
     robot.semantic_description = kSemanticDescription;
-    addSemantics(robot, description, "", options, parts);
+    detail::readSemantics(robot, description, "", options, parts);
     if (!is_file)
       parts.named_robots.back().semantic_description = where + "_semantic";  // as requests name it
   }
@@ -357,42 +275,6 @@ Scene loadRobotScene(const std::string& urdf, const std::string& where, const Sc
   if (options.strict) requireNoProblem(scene);
   keepAsLoaded(scene);
   return scene;
-}
-
-std::vector<LoadedBody> loadBodies(const std::vector<BodyDescription>& descriptions,
-                                   const std::string& base_folder, const PackageLocator& package_locator,
-                                   const std::shared_ptr<BodyPool>& pool,
-                                   const PreparationCachePointer& cache, const SceneLimits& limits) {
-  std::vector<detail::BodySource> sources;
-  for (const BodyDescription& description : descriptions) {
-    sources.push_back(detail::sourceOf(description, base_folder));
-  }
-  std::vector<BuiltBody> built = detail::buildBodies(
-      std::move(sources), {package_locator,
-                           {},
-                           pool ? pool : std::make_shared<BodyPool>(kDefaultMetricMemoryLimit),
-                           cache,
-                           limits,
-                           nullptr});
-  std::vector<LoadedBody> loaded(built.size());
-  for (std::size_t i = 0; i < built.size(); ++i) {
-    loaded[i].body = std::move(built[i].body);
-    if (loaded[i].body) continue;
-    const std::string where = "body '" + descriptions[i].name + "'";
-    std::string& problem = built[i].problem;
-    if (problem.rfind(where + ": ", 0) == 0) problem.erase(0, where.size() + 2);  // it is said once
-    loaded[i].problem.emplace(where, problem, "it is not added");
-  }
-  return loaded;
-}
-
-SceneBody loadBody(const BodyDescription& description, const std::string& base_folder,
-                   const PackageLocator& package_locator, const std::shared_ptr<BodyPool>& pool,
-                   const PreparationCachePointer& cache, const SceneLimits& limits) {
-  LoadedBody loaded =
-      std::move(loadBodies({description}, base_folder, package_locator, pool, cache, limits).front());
-  if (loaded.problem) throw Error(*loaded.problem);
-  return std::move(*loaded.body);
 }
 
 }  // namespace concave_distance

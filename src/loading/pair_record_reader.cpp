@@ -1,6 +1,5 @@
 #include "pair_record_reader.h"
 
-#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -50,10 +49,7 @@ RoundShape readShape(const YamlValue& value) {
   RoundShape shape;
   shape.kind = map.require("kind", kRemedy).choice(kKinds);
   shape.radius = readLength(map.require("radius", kRemedy));
-  const char* allowed = "a number from 0, metres";
-  shape.half_length = map.require("half_length", kRemedy).number(allowed, [](double length) {
-    return length >= 0.0 && std::isfinite(length);
-  });
+  shape.half_length = readLengthOrZero(map.require("half_length", kRemedy));
   shape.chord_error = readLength(map.require("chord_error", kRemedy));
   shape.body_from_shape = readPose(map.require("pose", kRemedy));
   map.finish();
@@ -91,9 +87,7 @@ std::shared_ptr<const SceneBody> readBody(const YamlValue& value, const std::str
   body.name = map.require("name", kRemedy).text();
   const std::uint64_t vertices = map.require("vertices", kRemedy).count(1, kMostNodes);
   const std::uint64_t triangles = map.require("triangles", kRemedy).count(1, kMostNodes);
-  body.margin = map.require("margin", kRemedy).number("a number from 0, metres", [](double margin) {
-    return margin >= 0.0 && std::isfinite(margin);
-  });
+  body.margin = readLengthOrZero(map.require("margin", kRemedy));
   BodyMeshOptions options;
   readGrid(map.require("grid", kRemedy), options);
   if (const auto shape = map.take("shape")) {

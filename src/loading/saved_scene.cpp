@@ -35,8 +35,8 @@ class SceneWriter {
     std::string text = std::string(kSavedSceneMark) + "\n";
     text += "defaults:\n" + defaults().block("  ", "  ");
     if (scene_.pool) {
-      const double megabytes = static_cast<double>(scene_.pool->metricMemory()->limit() / kMegabyte);
-      text += "metric_memory_limit_mb: " + yamlNumber(megabytes) + "\n";
+      const std::size_t megabytes = scene_.pool->metricMemory()->limit() / kMegabyte;
+      text += "metric_memory_limit_mb: " + yamlNumber(static_cast<double>(megabytes)) + "\n";
     }
     text += section("robots", robots()) + section("bodies", bodies()) + section("clouds", clouds()) +
             section("groups", groups());
@@ -220,7 +220,7 @@ class SceneWriter {
   // One file for equal meshes.
   std::string meshFile(const TriangleSoup& soup) {
     std::string text = objText(soup);
-    const std::string name = stem_ + "_" + hashBytes(text.data(), text.size()).text() + ".obj";
+    std::string name = stem_ + "_" + hashBytes(text.data(), text.size()).text() + ".obj";
     bool is_new = with_meshes_;
     for (const SavedFile& file : result_.files) is_new = is_new && file.name != name;
     if (is_new) result_.files.push_back({name, std::move(text)});

@@ -1,5 +1,7 @@
 #include "settings_reader.h"
 
+#include <cmath>
+
 #include "concave_distance/base/error.h"
 #include "effects_reader.h"
 #include "parameter_map.h"
@@ -74,6 +76,11 @@ std::optional<double> readEdgeLength(const YamlValue& value) {
 
 double readLength(const YamlValue& value) {
   return value.number(kLength, positiveFinite);
+}
+
+double readLengthOrZero(const YamlValue& value) {
+  return value.number("a number from 0, metres",
+                      [](double length) { return length >= 0.0 && std::isfinite(length); });
 }
 
 }  // namespace concave_distance::detail

@@ -29,5 +29,7 @@ std::optional<double> readEdgeLength(const YamlValue& value);
 
 /// A positive, finite length in metres.
 double readLength(const YamlValue& value);
+/// A finite length from 0 on, metres.
+double readLengthOrZero(const YamlValue& value);
 
 }  // namespace concave_distance::detail

@@ -36,7 +36,7 @@ Eigen::Quaterniond fromRollPitchYaw(const Eigen::Vector3d& rpy) {
 Eigen::Matrix3d readRotation(const YamlValue& value) {
   const char* allowed = "nine numbers row by row: a rotation without mirroring";
   const std::vector<double> v = value.numbers(9, allowed);
-  const Eigen::Matrix3d rotation = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(v.data());
+  Eigen::Matrix3d rotation = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(v.data());
   const double error = (rotation * rotation.transpose() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
   if (!(error <= kRotationTolerance) || !(rotation.determinant() > 0.0)) value.refuse(allowed);
   return rotation;

@@ -12,6 +12,7 @@ namespace py = pybind11;
 // It lives as long as the process, as all classes of an extension module.
 PyObject* error_class = nullptr;
 
+// pybind11 calls it with a copy. NOLINTNEXTLINE(performance-unnecessary-value-param)
 void translate(std::exception_ptr thrown) {
   try {
     if (thrown) std::rethrow_exception(thrown);

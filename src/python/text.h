@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 
 namespace concave_distance::python {
 
@@ -16,7 +17,7 @@ inline pybind11::str toPython(const std::string& text) {
 /// Returns a message of the library in Python's words: `~geometry`, a parameter of the node, is the keyword
 /// `geometry`, and the folders of `~mesh_search_path` are `mesh_folders`.
 inline std::string inKeywords(const std::string& message) {
-  static const std::string kSearchPath = "~mesh_search_path";
+  constexpr std::string_view kSearchPath = "~mesh_search_path";
   std::string text = message;
   for (std::size_t at = text.find(kSearchPath); at != std::string::npos; at = text.find(kSearchPath, at))
     text.replace(at, kSearchPath.size(), "mesh_folders");

@@ -24,9 +24,10 @@ constexpr std::size_t kMostTrianglesAhead = 1'000'000;
 
 }  // namespace
 
-PreparationTask::PreparationTask(std::shared_ptr<const BodyMesh> a, std::shared_ptr<const BodyMesh> b,
+PreparationTask::PreparationTask(const std::shared_ptr<const BodyMesh>& a,
+                                 const std::shared_ptr<const BodyMesh>& b,
                                  const TrackerParameters& parameters)
-    : a_(std::move(a)), b_(std::move(b)), parameters_(parameters) {}
+    : a_(a), b_(b), parameters_(parameters) {}
 
 bool PreparationTask::suffices(const TrackerParameters& parameters) const {
   return parameters_.keep_through_material == parameters.keep_through_material &&

@@ -24,7 +24,7 @@ namespace concave_distance {
 /// Two convex bodies need less (areConvex()), two round solids nothing.
 class PreparationTask {
  public:
-  PreparationTask(std::shared_ptr<const BodyMesh> a, std::shared_ptr<const BodyMesh> b,
+  PreparationTask(const std::shared_ptr<const BodyMesh>& a, const std::shared_ptr<const BodyMesh>& b,
                   const TrackerParameters& parameters);
   /// Returns whether it makes all that a pair needs with these parameters.
   bool suffices(const TrackerParameters& parameters) const;

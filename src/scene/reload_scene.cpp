@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <memory>
 #include <optional>
-#include <unordered_map>
 #include <unordered_set>
 #include <utility>
 
 #include "body_placement.h"
+#include "body_serials.h"
 #include "cloud_bodies.h"
 #include "concave_distance/base/error.h"
 #include "merged_rules.h"
@@ -15,54 +15,6 @@
 
 namespace concave_distance::detail {
 namespace {
-
-using Serials = std::unordered_map<std::uint64_t, std::uint64_t>;
-
-std::uint64_t renumbered(const Serials& serials, std::uint64_t serial) {
-  const auto found = serials.find(serial);
-  return found == serials.end() ? serial : found->second;
-}
-
-std::unordered_set<std::uint64_t> renumbered(const Serials& serials,
-                                             const std::unordered_set<std::uint64_t>& all) {
-  std::unordered_set<std::uint64_t> result;
-  for (const std::uint64_t serial : all) result.insert(renumbered(serials, serial));
-  return result;
-}
-
-using SerialPairs = std::vector<std::pair<std::uint64_t, std::uint64_t>>;
-
-SerialPairs renumbered(const Serials& serials, const SerialPairs& pairs) {
-  SerialPairs result;
-  for (const auto& [a, b] : pairs)
-    result.emplace_back(std::minmax(renumbered(serials, a), renumbered(serials, b)));
-  std::sort(result.begin(), result.end());
-  return result;
-}
-
-// Gives bodies other serials, wherever the scene names them.
-void renumber(Scene& scene, const Serials& serials) {
-  if (serials.empty()) return;
-  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-    SceneBody& body = scene.bodies.edit(i);
-    body.serial = renumbered(serials, body.serial);
-    body.carrier = renumbered(serials, body.carrier);
-    if (body.attachment) {
-      Attachment attachment = *body.attachment;
-      attachment.parent_serial = renumbered(serials, attachment.parent_serial);
-      attachment.carrier_before = renumbered(serials, attachment.carrier_before);
-      attachment.may_touch = renumbered(serials, attachment.may_touch);
-      body.attachment = std::make_shared<const Attachment>(std::move(attachment));
-    }
-    if (body.added_rule) {
-      body.added_rule = std::make_shared<const AddedBodyRule>(
-          AddedBodyRule{body.added_rule->all, renumbered(serials, body.added_rule->bodies)});
-    }
-  }
-  if (scene.rules.filtered)
-    scene.rules.filtered = std::make_shared<const SerialPairs>(renumbered(serials, *scene.rules.filtered));
-  scene.overlapping = renumbered(serials, scene.overlapping);
-}
 
 const SceneBody* bodyNamed(const Scene& scene, const std::string& name) {
   const std::optional<std::size_t> place = scene.findBody(name);
@@ -227,9 +179,12 @@ class Reload {
         body.carrier = attachment->carrier_before;
         where = "it stays in frame '" + body.frame + "', because " + error.whatIsWrong();
       }
-      report_.dropped.push_back("attachment of '" + name + "' to '" + attachment->parent +
-                                "', which is gone: " + where);
+      noteDropped(name, *attachment, ", which is gone: " + where);
     }
+  }
+
+  void noteDropped(const std::string& body, const Attachment& attachment, const std::string& why) {
+    report_.dropped.push_back("attachment of '" + body + "' to '" + attachment.parent + "'" + why);
   }
 
   void keepEditsOf(std::size_t place, Scene& scene) {
@@ -264,8 +219,7 @@ class Reload {
     }
     if (at != place) return;
     SceneBody& body = scene.bodies.edit(place);
-    report_.dropped.push_back("attachment of '" + body.name + "' to '" + body.attachment->parent +
-                              "': it would be attached to itself, through others");
+    noteDropped(body.name, *body.attachment, ": it would be attached to itself, through others");
     body.carrier = body.attachment->carrier_before;
     body.attachment = nullptr;
   }

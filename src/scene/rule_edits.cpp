@@ -39,7 +39,7 @@ class NewSettings {
     const auto [place, is_new] = changed_.emplace(rule.settings, made_.size());
     PairSettings settings = settingsOf(scene_, rule);
     change(rule, settings, bodies);
-    if (is_new) made_.push_back(std::move(settings));
+    if (is_new) made_.push_back(settings);
     rule.settings = static_cast<std::uint32_t>(place->second);
   }
   std::vector<PairSettings> take() { return std::move(made_); }

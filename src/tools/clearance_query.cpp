@@ -17,7 +17,7 @@
 #include "concave_distance/base/error.h"
 #include "concave_distance/kinematics/clearance.h"
 #include "concave_distance/loading/load_scene.h"
-#include "description_option.h"
+#include "scene_options.h"
 
 namespace concave_distance::tools {
 namespace {
@@ -42,11 +42,7 @@ Scene load(const ClearanceQueryOptions& options) {
   SceneLoadOptions load_options;
   load_options.package_locator = packagePathFromEnvironment;
   load_options.cache = openPreparationCache(options.cache);
-  for (const std::string& description : options.descriptions) {
-    const auto [name, path] = assignment("--description", description);
-    load_options.descriptions[name] = readDescription(path);
-    load_options.mesh_search_path.push_back(path);
-  }
+  readDescriptions(options.descriptions, load_options.descriptions, load_options.mesh_search_path);
   Scene scene = loadSceneFile(options.scene, load_options);
   for (const SceneProblem& problem : scene.problems) {
     std::cerr << "not in the scene: " << problem.where << ": " << problem.message << '\n';
@@ -229,9 +225,7 @@ void runClearanceQuery(ClearanceQueryOptions options) {
 
 void addOptions(CLI::App& app, ClearanceQueryOptions& options) {
   app.add_option("--scene", options.scene, "scene file")->required()->type_name("FILE");
-  app.add_option("--description", options.descriptions,
-                 "URDF of a description that the scene file names; once for each")
-      ->type_name("NAME=FILE");
+  addDescriptionOption(app, options.descriptions, "URDF of a description");
   app.add_option("--motion", options.motion,
                  "header t and the names of joints, or t,x,y,z,qx,qy,qz,qw; a waypoint a line")
       ->required()
@@ -251,8 +245,7 @@ void addOptions(CLI::App& app, ClearanceQueryOptions& options) {
       ->capture_default_str();
   app.add_flag("--each-pair", parameters.each_pair, "prove the least distance of every pair");
   app.add_option("--threads", parameters.threads, "0: one per core")->capture_default_str();
-  app.add_option("--cache", options.cache, "folder that keeps what was prepared of the meshes, or off")
-      ->type_name("DIR|off");
+  addCacheOption(app, options.cache);
   app.add_option("--output", options.output,
                  "status,distance,lower_bound,time,body_a,body_b,ax,ay,az,bx,by,bz,proven_until,first_time,"
                  "first_a,first_b,queries,box_queries,seconds")

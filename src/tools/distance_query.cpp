@@ -23,6 +23,7 @@
 #include "query_report.h"
 #include "replay.h"
 #include "scene/pair_parameters.h"
+#include "scene_options.h"
 #include "tracking/tracker_parameter_table.h"
 
 namespace concave_distance::tools {
@@ -227,10 +228,7 @@ void addOptions(CLI::App& app, DistanceQueryOptions& options) {
   app.add_option("--max-edge", options.max_edge_length,
                  "longest edge of the search grids, metres (automatic)")
       ->check(CLI::PositiveNumber);
-  app.add_option("--cache", options.cache,
-                 "folder that keeps what was prepared of a mesh for the next run, or off "
-                 "($XDG_CACHE_HOME/concave_distance, ~/.cache/concave_distance)")
-      ->type_name("DIR|off");
+  addCacheOption(app, options.cache);
   app.add_flag("--tracking", options.tracking,
                "lines are successive instants of one motion: warm starts, persistent niche numbers");
   app.add_option(

@@ -21,7 +21,7 @@ using Versions = std::vector<std::pair<std::string, std::string>>;
 
 std::string textOf(const Versions& versions) {
   std::vector<std::string> parts;
-  for (const auto& [part, version] : versions) parts.push_back(part + " " + version);
+  for (const auto& [part, version] : versions) parts.push_back(std::string(part).append(" ").append(version));
   return joinedText(parts, ", ");
 }
 

@@ -15,6 +15,7 @@
 #include "concave_distance/simulation/simulation.h"
 #include "parameter_options.h"
 #include "scene/simulation_parameters.h"
+#include "scene_options.h"
 #include "simulation_log.h"
 #include "slow_simulation.h"
 
@@ -50,8 +51,7 @@ void addOptions(CLI::App& app, Options& options) {
   for (const Parameter<SimulationSettings>& parameter : simulationParameters()) {
     tools::addParameter(app, parameter, options.given)->default_str("the scene's");
   }
-  app.add_option("--cache", options.cache, "folder that keeps what was prepared of the meshes, or off")
-      ->type_name("DIR|off");
+  tools::addCacheOption(app, options.cache);
   app.add_flag("--progress", options.progress, "show simulated time and real-time factor on the way");
 }
 

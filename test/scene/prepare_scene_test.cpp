@@ -66,7 +66,7 @@ class PrepareSceneTest : public ::testing::TestWithParam<bool> {
 TEST_P(PrepareSceneTest, TheFirstCycleMakesAndAllocatesNothing) {
   tracker.setScene(scene);
   const PreparationCounts counts = tracker.prepare(posesAt(0.0), 0.0);
-  EXPECT_TRUE(counts.is_complete());
+  EXPECT_TRUE(counts.isComplete());
   EXPECT_EQ(counts.bodies, 3U);
   const std::size_t bytes = bytesOf(scene);
   std::vector<Poses> poses;
@@ -140,7 +140,7 @@ TEST_P(PrepareSceneTest, AfterAnEditItMakesOnlyTheNewAndLeavesTheOthersAsTheyAre
   Poses poses = posesAt(0.01);
   poses.emplace_back(at(0.0, 2.6));
   const PreparationCounts counts = tracker.prepare(poses, 0.01);
-  EXPECT_TRUE(counts.is_complete());
+  EXPECT_TRUE(counts.isComplete());
   EXPECT_LE(counts.made, 1U) << "a thread in the background may have been first";
   EXPECT_EQ(counts.made == 1U, counts.memory_bytes > 0U);
   if (!GetParam()) {
@@ -171,7 +171,7 @@ TEST(PrepareScene, WithoutTimeItLeavesEverythingToTheCycles) {
   const PreparationCounts counts = tracker.prepare(posesAt(0.0), 0.0, {true, true, true, false}, settings);
   EXPECT_EQ(counts.made, 0U);
   EXPECT_EQ(counts.left, 3U);
-  EXPECT_FALSE(counts.is_complete());
+  EXPECT_FALSE(counts.isComplete());
   tracker.update(posesAt(0.1), 0.1);
   EXPECT_TRUE(tracker.pairs()[0]->solution.niches_complete);
   EXPECT_GT(tracker.pairs()[0]->solution.cost.generations, 0U) << "its search is made";

@@ -1,13 +1,12 @@
 // The program itself, as a user runs it.
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <string>
 #include <vector>
 
 #include "support/csv_table.h"
+#include "support/run_program.h"
 #include "support/temporary_folder.h"
 
 namespace concave_distance::clearance_query_test {
@@ -40,11 +39,8 @@ class ClearanceQuery : public testing::Test {
 
   /// Exit status; what it prints goes to the file "log".
   int run(const std::string& arguments) {
-    const std::string command = "cd " + folder.path() + " && XDG_CACHE_HOME=" + folder.path("cache") + " " +
-                                CONCAVE_DISTANCE_CLEARANCE_QUERY +
-                                " --scene scene.yaml --description arm=arm.urdf " + arguments + " > log 2>&1";
-    const int status = std::system(command.c_str());
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    return test::runIn(folder, CONCAVE_DISTANCE_CLEARANCE_QUERY,
+                       "--scene scene.yaml --description arm=arm.urdf " + arguments);
   }
   std::string log() const { return test::contentOf(folder.path("log")); }
   bool logHas(const std::string& part) const { return log().find(part) != std::string::npos; }

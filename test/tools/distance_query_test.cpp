@@ -1,6 +1,5 @@
 // The program itself, as a user runs it.
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
 #include <cmath>
 #include <cstdlib>
@@ -14,6 +13,7 @@
 #include "support/csv_table.h"
 #include "support/painted_boxes.h"
 #include "support/plain_shapes.h"
+#include "support/run_program.h"
 #include "support/temporary_folder.h"
 
 namespace concave_distance::distance_query_test {
@@ -49,10 +49,7 @@ class DistanceQuery : public testing::Test {
 
   /// Exit status; what it prints goes to the file "log".
   int run(const std::string& arguments) {
-    const std::string command = "cd " + folder_.path() + " && XDG_CACHE_HOME=" + folder_.path("cache") + " " +
-                                CONCAVE_DISTANCE_DISTANCE_QUERY + " " + arguments + " > log 2>&1";
-    const int status = std::system(command.c_str());
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    return test::runIn(folder_, CONCAVE_DISTANCE_DISTANCE_QUERY, arguments);
   }
   int runBoxes(const std::string& further) {
     return run(

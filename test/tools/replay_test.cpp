@@ -1,12 +1,11 @@
 // distance_query --replay, as the one who is sent a recording runs it: what it prints, what it returns.
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
-#include <cstdlib>
 #include <string>
 
 #include "support/csv_table.h"
 #include "support/recorded_pair.h"
+#include "support/run_program.h"
 
 namespace concave_distance::replay_test {
 namespace {
@@ -22,10 +21,7 @@ class Replay : public ::testing::Test {
 
   /// Exit status; what it prints goes to the file "log".
   int run(const std::string& arguments) {
-    const std::string command =
-        "cd " + folder_.path() + " && " + CONCAVE_DISTANCE_DISTANCE_QUERY + " " + arguments + " > log 2>&1";
-    const int status = std::system(command.c_str());
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    return test::runIn(folder_, CONCAVE_DISTANCE_DISTANCE_QUERY, arguments);
   }
   std::string log() const { return test::contentOf(folder_.path("log")); }
   void change(const std::string& file, const std::string& from, const std::string& to) {

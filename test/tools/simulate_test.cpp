@@ -1,12 +1,12 @@
 // The program itself, as a user runs it.
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
 #include <cstdlib>
 #include <string>
 #include <vector>
 
 #include "support/csv_table.h"
+#include "support/run_program.h"
 #include "support/temporary_folder.h"
 
 namespace concave_distance::simulate_test {
@@ -35,12 +35,7 @@ class Simulate : public testing::Test {
   void SetUp() override { folder.write("scene.yaml", kScene); }
 
   /// Exit status; what it prints goes to the file "log".
-  int run(const std::string& arguments) {
-    const std::string command = "cd " + folder.path() + " && XDG_CACHE_HOME=" + folder.path("cache") + " " +
-                                CONCAVE_DISTANCE_SIMULATE + " " + arguments + " > log 2>&1";
-    const int status = std::system(command.c_str());
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  }
+  int run(const std::string& arguments) { return test::runIn(folder, CONCAVE_DISTANCE_SIMULATE, arguments); }
   std::string log() const { return test::contentOf(folder.path("log")); }
   bool logHas(const std::string& part) const { return log().find(part) != std::string::npos; }
 

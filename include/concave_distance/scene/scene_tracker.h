@@ -47,7 +47,7 @@ struct PreparationCounts {
   std::size_t lists_left = 0;    ///< pairs whose niches there was no time for
   std::size_t memory_bytes = 0;  ///< by which the meshes have grown
 
-  bool is_complete() const { return left == 0 && lists_left == 0; }
+  bool isComplete() const { return left == 0 && lists_left == 0; }
 };
 
 /// The end of a cycle without one.

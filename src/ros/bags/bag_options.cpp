@@ -8,8 +8,8 @@
 #include "ros/node/node_parameter_table.h"
 #include "scene/name_pattern.h"
 #include "scene/pair_parameters.h"
-#include "tools/description_option.h"
 #include "tools/parameter_options.h"
+#include "tools/scene_options.h"
 
 namespace concave_distance {
 namespace {
@@ -20,16 +20,11 @@ void addSceneOptions(CLI::App& app, BagOptions& options) {
   app.add_option("--robot-description", options.robot_description,
                  "URDF of the parameter robot_description: of the scene's robot, or of the robot alone")
       ->type_name("FILE");
-  app.add_option("--description", options.descriptions,
-                 "URDF or SRDF of another parameter that the scene file names; once for each")
-      ->type_name("NAME=FILE");
+  tools::addDescriptionOption(app, options.descriptions, "URDF or SRDF of another parameter");
   app.add_option("--mesh-search-path", options.node.mesh_search_folders,
                  "folder to search for meshes that are not found; once for each")
       ->type_name("DIR");
-  app.add_option("--cache", options.node.cache,
-                 "folder that keeps what was prepared of the meshes, or off "
-                 "($XDG_CACHE_HOME/concave_distance, ~/.cache/concave_distance)")
-      ->type_name("DIR|off");
+  tools::addCacheOption(app, options.node.cache);
   for (const char* parameter : {"reference_frame", "geometry", "skip_overlapping_pairs", "stale_after",
                                 "tf_cache", "tf_future_tolerance", "threads"}) {
     tools::addParameter(app, nodeParameterTable(), parameter, options.node);

@@ -26,8 +26,8 @@
 #include "ros/node/scene_loader.h"
 #include "ros/tf/frame_report.h"
 #include "ros/time_difference.h"
-#include "tools/description_option.h"
 #include "tools/option_names.h"
+#include "tools/scene_options.h"
 
 namespace concave_distance {
 namespace {
@@ -53,15 +53,11 @@ void endOnInterrupt() {
 /// Texts by the names of their parameters, and their folders as places to search for meshes.
 std::map<std::string, std::string> readDescriptions(BagOptions& options) {
   std::map<std::string, std::string> texts;
-  const auto read = [&](const std::string& name, const std::string& path) {
-    texts[name] = tools::readDescription(path);
-    options.node.mesh_search_folders.push_back(path);
-  };
-  if (!options.robot_description.empty()) read(kUsualDescription, options.robot_description);
-  for (const std::string& description : options.descriptions) {
-    const auto [name, path] = tools::assignment("--description", description);
-    read(name, path);
+  if (!options.robot_description.empty()) {
+    texts[kUsualDescription] = tools::readDescription(options.robot_description);
+    options.node.mesh_search_folders.push_back(options.robot_description);
   }
+  tools::readDescriptions(options.descriptions, texts, options.node.mesh_search_folders);
   return texts;
 }
 

@@ -1,16 +1,12 @@
 #include "cloud_receivers.h"
 
 #include <algorithm>
-#include <utility>
 
 namespace concave_distance {
 
-CloudReceivers::CloudReceivers(ros::NodeHandle node, SceneStore& keeper, const TransformBuffer& transforms,
-                               double transform_timeout)
-    : node_(std::move(node)),
-      keeper_(keeper),
-      transforms_(transforms),
-      transform_timeout_(transform_timeout) {}
+CloudReceivers::CloudReceivers(const ros::NodeHandle& node, SceneStore& keeper,
+                               const TransformBuffer& transforms, double transform_timeout)
+    : node_(node), keeper_(keeper), transforms_(transforms), transform_timeout_(transform_timeout) {}
 
 void CloudReceivers::follow(const Scene& scene) {
   const auto end = std::remove_if(receivers_.begin(), receivers_.end(), [&](const auto& receiver) {

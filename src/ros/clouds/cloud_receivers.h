@@ -12,7 +12,7 @@ namespace concave_distance {
 /// Follows all clouds of the scene that is served.
 class CloudReceivers {
  public:
-  CloudReceivers(ros::NodeHandle node, SceneStore& keeper, const TransformBuffer& transforms,
+  CloudReceivers(const ros::NodeHandle& node, SceneStore& keeper, const TransformBuffer& transforms,
                  double transform_timeout);
 
   /// Subscribes to the clouds of a scene that are not followed yet, and ends those that are gone.

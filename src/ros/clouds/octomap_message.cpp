@@ -43,7 +43,7 @@ std::vector<std::string> fieldsOf(const std::string& definition) {
     std::string name;
     if (said.find('=') != std::string::npos || !(words >> type >> name)) continue;
     if (type == "std_msgs/Header") type = "Header";
-    fields.push_back(type + " " + name);
+    fields.push_back(type.append(" ").append(name));
   }
   return fields;
 }

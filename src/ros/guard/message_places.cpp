@@ -124,7 +124,7 @@ const MessagePlaces::Places& MessagePlaces::ofTwist(const Constraints& message, 
       [&](const UnlistedPair& pair, GuardPlace& place) {
         const bool moves_a = twist.moves(pair.frame_a);
         const bool moves_b = twist.moves(pair.frame_b);
-        // Nothing is known of what is not listed for a link that joints move and no twist.
+        // The twist moves neither body, but joints do: an unlisted pair does not say how fast they close.
         if (!moves_a && !moves_b && isReached(pair)) place.kind = GuardPlace::Kind::Unknown;
         if (moves_a == moves_b) return;
         place.closing = moves_a ? largestSpeed(twist.twist, pair.centre_a, pair.radius_a)

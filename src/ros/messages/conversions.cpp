@@ -119,21 +119,21 @@ PairStatus toStatus(SolveStatus status) {
   return message;
 }
 
-PairStatus toStatus(TransformStatus status, const std::string& text) {
-  PairStatus message;
-  message.message = text;
+PairStatus toStatus(TransformStatus status, const std::string& message) {
+  PairStatus made;
+  made.message = message;
   switch (status) {
     case TransformStatus::Ok:
-      message.code = PairStatus::OK;
+      made.code = PairStatus::OK;
       break;
     case TransformStatus::Missing:
-      message.code = PairStatus::MISSING_TRANSFORM;
+      made.code = PairStatus::MISSING_TRANSFORM;
       break;
     case TransformStatus::Stale:
-      message.code = PairStatus::STALE_TRANSFORM;
+      made.code = PairStatus::STALE_TRANSFORM;
       break;
   }
-  return message;
+  return made;
 }
 
 bool hasDistance(const PairStatus& status) {

@@ -156,11 +156,12 @@ JointMotion jointMotionOf(const GetClearanceRequest& request, const NodeLimits& 
 std::string frameOfPoses(const GetClearanceRequest& request, const std::string& reference_frame) {
   if (request.poses.empty()) throw Error("poses", "the list is empty", "give at least one pose of `body`");
   const std::string& first = request.poses.front().header.frame_id;
-  for (std::size_t i = 0; i < request.poses.size(); ++i) {
-    const std::string& frame = request.poses[i].header.frame_id;
-    if (frame == first) continue;
-    throw Error("poses[" + std::to_string(i) + "].header.frame_id",
-                "it is '" + frame + "', that of the first '" + first + "'", "give all poses in one frame");
+  const auto other = std::find_if(request.poses.begin(), request.poses.end(),
+                                  [&](const auto& pose) { return pose.header.frame_id != first; });
+  if (other != request.poses.end()) {
+    throw Error("poses[" + std::to_string(other - request.poses.begin()) + "].header.frame_id",
+                "it is '" + other->header.frame_id + "', that of the first '" + first + "'",
+                "give all poses in one frame");
   }
   return first.empty() ? reference_frame : requireFrameName(first, "poses[0].header.frame_id");
 }

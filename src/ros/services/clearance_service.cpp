@@ -49,7 +49,7 @@ ClearanceService::ClearanceService(ServiceQueues& queues, SceneStore& keeper, co
 }
 
 ClearanceService::StopFlag ClearanceService::begin(const std::string& id) {
-  const auto stop = std::make_shared<std::atomic<bool>>(false);
+  auto stop = std::make_shared<std::atomic<bool>>(false);
   const std::lock_guard<std::mutex> lock(mutex_);
   if (!id.empty() && running_.count(id) != 0) {
     throw Error("id", "a request '" + id + "' is running", "give each its own");

@@ -34,7 +34,7 @@ std::size_t requireBody(const Scene& scene, const std::string& field, const std:
 /// A folder that is not there yet.
 std::string freeFolder(const std::string& save_folder, const std::string& name) {
   for (int number = 1; number < kMostNames; ++number) {
-    const std::string place = detail::placeBelow(save_folder, name + "_" + std::to_string(number), "folder");
+    std::string place = detail::placeBelow(save_folder, name + "_" + std::to_string(number), "folder");
     std::error_code ignored;
     if (!std::filesystem::exists(std::filesystem::symlink_status(place, ignored))) return place;
   }

@@ -105,7 +105,7 @@ bool StateServices::reload(Reload::Request& request, Reload::Response& response)
       scene = detail::reloadedScene(scene, std::move(fresh), request.drop_edits != 0, frames, report);
     });
     fillReport(std::move(report), response);
-    source_.onServed(loaded);
+    source_.on_served(loaded);
     ROS_INFO("Reloaded the scene: %zu bodies go on, %zu are new, changed or gone, %zu edits were dropped.",
              response.kept.size(), countOf(response), response.dropped.size());
     for (const std::string& dropped : response.dropped) ROS_WARN_STREAM("Reload has dropped: " << dropped);

@@ -22,7 +22,7 @@ struct SceneSource {
   /// Returns what they say. @param pool whose meshes the scene shares. @throws Error for what is wrong
   std::function<Scene(const std::shared_ptr<BodyPool>& pool)> load;
   /// Called with what load() returned last, when it is served.
-  std::function<void(const Scene& loaded)> onServed;
+  std::function<void(const Scene& loaded)> on_served;
 };
 
 /// The services of the whole scene: get_scene, save_scene, reload. All pass the gate for long requests.

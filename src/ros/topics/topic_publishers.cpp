@@ -111,9 +111,9 @@ std::shared_ptr<const ServedScene> TopicPublishers::serve(Scene scene, const Ser
   served->scene = std::make_shared<const Scene>(std::move(scene));
   served->groups = groups_.serve(*served->scene, before == nullptr ? nullptr : &before->groups);
   served->marker_style = style;
-  static const PairTopicList kNoTopics;
+  static const PairTopicList no_topics;
   served->topics = pair_topics_.topicsOf(*served->scene, before == nullptr ? nullptr : before->scene.get(),
-                                         before == nullptr ? kNoTopics : before->topics);
+                                         before == nullptr ? no_topics : before->topics);
   return served;
 }
 
@@ -154,10 +154,10 @@ void TopicPublishers::readDemand(const ServedScene& served, const MarkerOptions&
 
 PairDemand TopicPublishers::demandOf(const ServedScene& served, std::size_t place,
                                      const TrackedPair& tracked) const {
-  static const PairTopics kNoTopics;
+  static const PairTopics no_topics;
   const PairSettings& settings = tracked.origin->settings;
   const bool has_own = own_wanted_ && place < served.topics.size() && served.topics[place];
-  const PairTopics& own = has_own ? *served.topics[place] : kNoTopics;
+  const PairTopics& own = has_own ? *served.topics[place] : no_topics;
   const bool own_niches = own.niches.isWatched();
   const bool alert = alerts_wanted_ && settings.warning_distance;
   const bool contacts = (contacts_wanted_ || own.contacts.isWatched()) && settings.effects.any();
@@ -247,11 +247,11 @@ std::size_t TopicPublishers::publishMarkers(const ServedScene& served, const Pub
   std_msgs::Header header;
   header.frame_id = reference_frame_;
   header.stamp = now;
-  static const std::vector<PairNiches> kNoNiches;
-  static const std::vector<PairContactState> kNoContacts;
+  static const std::vector<PairNiches> no_niches;
+  static const std::vector<PairContactState> no_contacts;
   const auto message = boost::make_shared<visualization_msgs::MarkerArray>(
-      drawing_->draw(*served.scene, served.marker_style, pairs, markers_wanted_ ? messages_ : kNoNiches,
-                     contact_markers_wanted_ ? contact_messages_ : kNoContacts, header, lifetime));
+      drawing_->draw(*served.scene, served.marker_style, pairs, markers_wanted_ ? messages_ : no_niches,
+                     contact_markers_wanted_ ? contact_messages_ : no_contacts, header, lifetime));
   markers_.publish(message);
   return message->markers.size();
 }

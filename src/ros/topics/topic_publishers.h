@@ -74,7 +74,7 @@ class TopicPublishers {
   /// Reads who listens, for the cycle that follows.
   void readDemand(const ServedScene& served, const MarkerOptions& markers);
   /// Returns what is wanted of the pair at this place in the cycle's pairs.
-  PairDemand demandOf(const ServedScene& served, std::size_t place, const TrackedPair& pair) const;
+  PairDemand demandOf(const ServedScene& served, std::size_t place, const TrackedPair& tracked) const;
 
   /// Returns whether no topic has a subscriber that needs anything computed or published.
   bool isIdle() const;

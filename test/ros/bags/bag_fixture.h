@@ -2,10 +2,8 @@
 
 #include <gtest/gtest.h>
 #include <rosbag/bag.h>
-#include <sys/wait.h>
 #include <tf2_msgs/TFMessage.h>
 
-#include <cstdlib>
 #include <functional>
 #include <string>
 #include <utility>
@@ -13,6 +11,7 @@
 
 #include "ros/transform_message.h"
 #include "support/csv_table.h"
+#include "support/run_program.h"
 #include "support/temporary_folder.h"
 
 namespace concave_distance::test {
@@ -67,12 +66,7 @@ class BagFixture : public testing::Test {
   }
 
   /// Exit status; what it prints goes to the file "log".
-  int run(const std::string& arguments) {
-    const std::string command = "cd " + folder_.path() + " && XDG_CACHE_HOME=" + folder_.path("cache") + " " +
-                                CONCAVE_DISTANCE_DISTANCE_BAG + " " + arguments + " > log 2>&1";
-    const int status = std::system(command.c_str());
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  }
+  int run(const std::string& arguments) { return runIn(folder_, CONCAVE_DISTANCE_DISTANCE_BAG, arguments); }
   int runBoxes(const std::string& further) { return run("--scene boxes.yaml --output d.csv " + further); }
   std::string log() const { return contentOf(folder_.path("log")); }
   std::string content(const std::string& file) const { return contentOf(folder_.path(file)); }

@@ -11,11 +11,11 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <string>
 
 #include "launched_file.h"
 #include "rostest_support.h"
+#include "support/temporary_folder.h"
 #include "tf_player.h"
 
 namespace concave_distance::launch_files_rostest {
@@ -25,8 +25,7 @@ constexpr double kStart = 60.0;  // s, for roslaunch and the nodes to start on a
 const char* const kNode = "/concave_distance";
 
 std::string robotText() {
-  std::ifstream stream(ros::package::getPath("concave_distance") + "/test/ros/rostest/two_links.urdf");
-  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  return test::contentOf(ros::package::getPath("concave_distance") + "/test/ros/rostest/two_links.urdf");
 }
 
 bool hasDistance(const Distances& message) {

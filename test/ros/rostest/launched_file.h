@@ -8,10 +8,10 @@
 
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <string>
 #include <vector>
+
+#include "support/temporary_folder.h"
 
 namespace concave_distance {
 
@@ -42,10 +42,7 @@ class LaunchedFile {
   LaunchedFile(const LaunchedFile&) = delete;
   LaunchedFile& operator=(const LaunchedFile&) = delete;
 
-  std::string output() const {
-    std::ifstream stream(log_);
-    return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-  }
+  std::string output() const { return test::contentOf(log_); }
 
   /// Fails when roslaunch or one of its nodes has ended.
   void expectAllUp() {

@@ -6,7 +6,6 @@
 #include <concave_distance/RecordPair.h>
 #include <concave_distance/SetPairEnabled.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
 #include <array>
 #include <atomic>
@@ -20,6 +19,7 @@
 #include "node_access.h"
 #include "operation_messages.h"
 #include "support/csv_table.h"
+#include "support/run_program.h"
 #include "support/temporary_folder.h"
 #include "tf_player.h"
 
@@ -77,9 +77,7 @@ class Record : public ::testing::Test {
   int replay(const std::string& folder) {
     const std::string program =
         std::filesystem::read_symlink("/proc/self/exe").parent_path() / "distance_query";
-    const std::string command = program + " --replay " + folder + " > " + scratch.path("log") + " 2>&1";
-    const int status = std::system(command.c_str());
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    return test::runIn(scratch, program, "--replay " + folder);
   }
   std::string log() const { return test::contentOf(scratch.path("log")); }
   /// A place below the folder in which the node may write.

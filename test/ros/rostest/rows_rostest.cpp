@@ -8,23 +8,18 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <iterator>
 #include <sstream>
 #include <string>
 #include <vector>
 
 #include "run_node.h"
+#include "support/temporary_folder.h"
 
 namespace concave_distance::rows_rostest {
 namespace {
 
 const std::string kProgram = "rosrun concave_distance follow_rows.py _step:=0.01 _margin:=0.004 _gain:=10 ";
-
-std::string textOf(const std::filesystem::path& path) {
-  std::ifstream stream(path);
-  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-}
 
 std::string packagePath(const std::string& path) {
   return ros::package::getPath("concave_distance") + "/" + path;
@@ -48,7 +43,7 @@ struct RecordedRun {
 
 RecordedRun readRun(const std::filesystem::path& path) {
   RecordedRun run;
-  run.text = textOf(path);
+  run.text = test::contentOf(path);
   std::istringstream stream(run.text);
   std::string line;
   std::getline(stream, line);
@@ -135,7 +130,7 @@ TEST_F(RowsDemo, SaysWhatIsMissing) {
   EXPECT_EQ(ended.exit_code, 1);
   EXPECT_NE(ended.output.find("there is no parameter robot_description"), std::string::npos) << ended.output;
 
-  ros::param::set("/robot_description", textOf(packagePath("urdf/clamp.urdf")));
+  ros::param::set("/robot_description", test::contentOf(packagePath("urdf/clamp.urdf")));
   ended = runCommand(kProgram + "2>&1");
   EXPECT_EQ(ended.exit_code, 1);
   EXPECT_NE(ended.output.find("there is no task"), std::string::npos) << ended.output;

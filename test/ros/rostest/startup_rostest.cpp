@@ -14,7 +14,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <string>
 #include <utility>
 #include <vector>
@@ -40,8 +39,7 @@ bool isReady(const std::string& node) {
 }
 
 std::string readText(const std::string& name) {
-  std::ifstream stream(ros::package::getPath("concave_distance") + "/test/ros/rostest/" + name);
-  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  return test::contentOf(ros::package::getPath("concave_distance") + "/test/ros/rostest/" + name);
 }
 
 TEST(StartUp, WaitsForTheRobotDescriptionAndThenForTransforms) {

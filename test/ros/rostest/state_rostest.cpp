@@ -14,7 +14,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <iterator>
 #include <set>
 #include <string>
@@ -108,8 +107,7 @@ void expectRefused(const std::string& message, const std::string& part) {
 }
 
 std::string urdf() {
-  std::ifstream stream(ros::package::getPath("concave_distance") + "/test/ros/rostest/tool_changer.urdf");
-  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  return test::contentOf(ros::package::getPath("concave_distance") + "/test/ros/rostest/tool_changer.urdf");
 }
 
 class State : public ::testing::Test {

@@ -2,15 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "distance/niches/niche_decider.h"
 #include "distance/niches/planar_set.h"
 #include "search/grid/body_grid.h"
-#include "search/local_descent.h"
 #include "support/enumeration.h"
-#include "thesis/benchmark/support/grid_flood.h"
-#include "tracking/niche_placement.h"
 
 namespace concave_distance::benchmark {
 
@@ -104,89 +100,6 @@ bool isSameNiche(const BenchmarkPair& pair, const Eigen::Isometry3d& pose, const
     return decider.locate(frame, {witness.triangle_a, witness.triangle_b}, request, none);
   };
   return niche_of(found) == niche_of(reference);
-}
-
-namespace {
-
-// The grid minimum that a place leads to over passes of less than `least_prominence`.
-TrialPoint bottomOfBasin(const PairFrame& frame, const PairObjective& objective, const WitnessPair& place,
-                         double least_prominence, FloodWorkspace& flood) {
-  constexpr std::uint32_t kStates = 20000;
-  SearchCost cost;
-  std::vector<std::uint64_t> trail;
-  TrialPoint bottom = descend(objective, nodePairNear(frame, place), nullptr, trail, cost);
-  while (true) {
-    const double level = (1.0 + least_prominence) * std::sqrt(bottom.squared_distance);
-    // The flood compares with the square of a root: without some noise its start may look deeper than itself.
-    const double noise = 1e-12 * level;
-    const std::optional<TrialPoint> deeper =
-        floodForDeeper(objective, bottom, level, noise, kStates, flood, cost);
-    if (!deeper) {
-      return bottom;
-    }
-    bottom = descend(objective, *deeper, nullptr, trail, cost);
-  }
-}
-
-}  // namespace
-
-std::vector<std::size_t> matchReferences(const BenchmarkPair& pair, const Eigen::Isometry3d& pose,
-                                         const std::vector<WitnessPair>& found,
-                                         const std::vector<ReferenceNiche>& references,
-                                         double least_prominence) {
-  constexpr std::size_t kNearest = 4;
-  std::vector<std::size_t> matches(references.size(), kNoMatch);
-  std::vector<std::pair<double, std::size_t>> by_gap;
-  for (std::size_t r = 0; r < references.size(); ++r) {
-    const WitnessPair& reference = references[r].witness;
-    by_gap.clear();
-    for (std::size_t i = 0; i < found.size(); ++i) {
-      by_gap.emplace_back((found[i].point_a_in_a - reference.point_a_in_a).squaredNorm() +
-                              (found[i].point_b_in_a - reference.point_b_in_a).squaredNorm(),
-                          i);
-    }
-    const std::size_t looked_at = std::min(kNearest, by_gap.size());
-    std::partial_sort(by_gap.begin(), by_gap.begin() + static_cast<std::ptrdiff_t>(looked_at), by_gap.end());
-    for (std::size_t k = 0; k < looked_at && matches[r] == kNoMatch; ++k) {
-      if (isSameNiche(pair, pose, found[by_gap[k].second], reference, least_prominence)) {
-        matches[r] = by_gap[k].second;
-      }
-    }
-  }
-  return matches;
-}
-
-std::vector<std::size_t> matchOverBentPasses(const BenchmarkPair& pair, const Eigen::Isometry3d& pose,
-                                             const std::vector<WitnessPair>& found,
-                                             const std::vector<ReferenceNiche>& references,
-                                             double least_prominence) {
-  std::vector<std::size_t> matches = matchReferences(pair, pose, found, references, least_prominence);
-  if (std::find(matches.begin(), matches.end(), kNoMatch) == matches.end()) {
-    return matches;
-  }
-  const detail::PairFrame frame = detail::PairFrame::withFacets(*pair.a, *pair.b, pose);
-  const PairObjective objective(*pair.a, *pair.b, pose);
-  FloodWorkspace flood;
-  for (std::size_t i = 0; i < found.size(); ++i) {
-    if (std::find(matches.begin(), matches.end(), i) != matches.end()) {
-      continue;
-    }
-    const TrialPoint bottom = bottomOfBasin(frame, objective, found[i], least_prominence, flood);
-    for (std::size_t r = 0; r < references.size(); ++r) {
-      if (matches[r] == kNoMatch && samePlace(bottom, references[r].nodes)) {
-        matches[r] = i;
-      }
-    }
-  }
-  return matches;
-}
-
-std::size_t countRecalled(const BenchmarkPair& pair, const Eigen::Isometry3d& pose,
-                          const std::vector<WitnessPair>& found,
-                          const std::vector<ReferenceNiche>& references, double least_prominence) {
-  const std::vector<std::size_t> matches = matchReferences(pair, pose, found, references, least_prominence);
-  return static_cast<std::size_t>(
-      std::count_if(matches.begin(), matches.end(), [](std::size_t match) { return match != kNoMatch; }));
 }
 
 RecallCount countRecall(const BenchmarkPair& pair, const Eigen::Isometry3d& pose,

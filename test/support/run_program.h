@@ -1,0 +1,21 @@
+#pragma once
+
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <string>
+
+#include "support/temporary_folder.h"
+
+namespace concave_distance::test {
+
+/// Runs a program in a folder, which has its cache too, and returns the exit status; -1: a signal ended it.
+/// What it prints goes to the folder's file "log".
+inline int runIn(const TemporaryFolder& folder, const std::string& program, const std::string& arguments) {
+  const std::string command = "cd " + folder.path() + " && XDG_CACHE_HOME=" + folder.path("cache") + " " +
+                              program + " " + arguments + " > log 2>&1";
+  const int status = std::system(command.c_str());
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+}  // namespace concave_distance::test
