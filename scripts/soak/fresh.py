@@ -197,29 +197,33 @@ class Comparer:
             return None
         os.kill(camera, signal.SIGSTOP)
         try:
-            cloud = self.served_cloud()
-            if cloud is None:
-                return None
-            time.sleep(SETTLES)
-            begins = time.monotonic()
-            time.sleep(COLLECTS)
-            known = [buffer for at, buffer in self.distances.newest() if at > begins]
+            end = time.monotonic() + CAMERA_RESTS
+            while time.monotonic() < end:
+                cloud, messages = self.newest_cloud(), self.collected()
+                # Messages that were on their way when the camera was stopped have come by then.
+                if self.reports.stamp_after(time.monotonic()) == stamp_text(cloud) == stamp_text(self.newest_cloud()):
+                    return messages, cloud
         finally:
             os.kill(camera, signal.SIGCONT)
-        if len(known) < SAMPLES:
-            return None
-        chosen = known[len(known) % SAMPLES::len(known) // SAMPLES]
-        return [Distances().deserialize(buffer) for buffer in chosen], cloud
+        return None
 
-    def served_cloud(self):
-        """The newest message of the camera that rests, once the node says that it serves it."""
+    def newest_cloud(self):
+        """The newest message of the camera, once the node says that it serves it."""
         end = time.monotonic() + CAMERA_RESTS
         while time.monotonic() < end:
             cloud = PointCloud2().deserialize(self.camera.newest()[-1][1])
-            if self.reports.stamp_of_cloud() == str(cloud.header.stamp.secs) + ".%09d" % cloud.header.stamp.nsecs:
-                return cloud
+            if self.reports.stamp_of_cloud() == stamp_text(cloud):
+                break
             time.sleep(0.02)
-        return None
+        return cloud
+
+    def collected(self):
+        """Some messages of distances from now on."""
+        time.sleep(SETTLES)
+        begins = time.monotonic()
+        time.sleep(COLLECTS)
+        known = [buffer for at, buffer in self.distances.newest() if at > begins]
+        return [Distances().deserialize(buffer) for buffer in known[len(known) % SAMPLES::max(1, len(known) // SAMPLES)]]
 
     def _wait_for_listener(self):
         end = time.monotonic() + LONGEST_WAIT
@@ -250,6 +254,11 @@ class Comparer:
             found.cloud_pairs += has_camera(pair)
         for message, answer in zip(lists, answers.results[len(seen):]):
             found.compare_lists(message, answer)
+
+
+def stamp_text(message):
+    """Its stamp as the diagnostics write it."""
+    return "%d.%09d" % (message.header.stamp.secs, message.header.stamp.nsecs)
 
 
 def texts(files):

@@ -11,6 +11,7 @@ from rosgraph_msgs.msg import Log
 
 NODE = "concave_distance/"
 KEPT = 100         # messages that are kept for a comparison
+LONGEST_WAIT = 3.0  # s for diagnostics
 SAME_PLACE = 1e-3  # m on the body that rests: a niche that ends and another that begins there are one
 
 
@@ -117,7 +118,8 @@ class Reports:
         self.lock = threading.Lock()
         self.quiet = quiet  # nodes whose errors do not count
         self.cycles = collections.Counter()
-        self.largest_ms, self.voxels, self.stamp = 0.0, 0, ""
+        self.largest_ms, self.voxels = 0.0, 0
+        self.stamp, self.diagnosed_at = "", 0.0
         self.errors, self.last_error = 0, ""
         rospy.Subscriber("/diagnostics", DiagnosticArray, self.diagnose, queue_size=100)
         rospy.Subscriber("/rosout", Log, self.read, queue_size=1000)
@@ -132,12 +134,22 @@ class Reports:
                     self.cycles[key] += int(values.get(key, 0))
                 self.largest_ms = max(self.largest_ms, float(values.get("cycle time max (ms)", 0.0)))
                 self.voxels = int(values.get("camera occupied voxels", self.voxels))
-                self.stamp = values.get("camera stamp (s)", self.stamp)
+                if "camera stamp (s)" in values:
+                    self.stamp, self.diagnosed_at = values["camera stamp (s)"], time.monotonic()
 
     def stamp_of_cloud(self):
         """Seconds with nine digits, as text, of the cloud that the node serves."""
         with self.lock:
             return self.stamp
+
+    def stamp_after(self, instant):
+        """The same, by diagnostics that come after an instant of time.monotonic(); empty: none come."""
+        while time.monotonic() < instant + LONGEST_WAIT:
+            with self.lock:
+                if self.diagnosed_at > instant:
+                    return self.stamp
+            time.sleep(0.02)
+        return ""
 
     def read(self, message):
         if message.level < Log.ERROR or message.name in self.quiet:

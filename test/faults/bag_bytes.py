@@ -32,13 +32,13 @@ def time_of(seconds):
     return struct.pack("<II", BEGIN + nanoseconds // 10**9, nanoseconds % 10**9)
 
 
-def connection(number, topic, message_class, **changes):
-    fields = {"topic": topic.encode(), "type": message_class._type.encode(), "md5sum": message_class._md5sum.encode(),
+def connection(number, on_topic, message_class, **changes):
+    fields = {"topic": on_topic.encode(), "type": message_class._type.encode(), "md5sum": message_class._md5sum.encode(),
               "message_definition": message_class._full_text.encode()}
     fields.update(changes)
     body = b"".join(struct.pack("<I", len(name) + 1 + len(value)) + name.encode() + b"=" + value
                     for name, value in fields.items() if value is not None)
-    return record(body, op=b"\x07", conn=count(number), topic=topic.encode())
+    return record(body, op=b"\x07", conn=count(number), topic=on_topic.encode())
 
 
 class Bag:
@@ -53,9 +53,9 @@ class Bag:
         self.connections = []
         self.chunks = []  # of lists of (connection, time, bytes)
 
-    def connect(self, topic, message_class, **changes):
+    def connect(self, on_topic, message_class, **changes):
         number = len(self.connections)
-        self.connections.append(connection(number, topic, message_class, **changes))
+        self.connections.append(connection(number, on_topic, message_class, **changes))
         return number
 
     def chunk(self):

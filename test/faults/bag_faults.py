@@ -190,7 +190,7 @@ def with_connection(**changes):
 
 
 refuses("topic_with_escapes", lambda: on_topics(1, "/tf\x1b[2J\n", TFMessage, of_tf=False), "--tf-topic")
-refuses("topic_of_a_megabyte", lambda: on_topics(1, "/" + "t" * 2**20, TFMessage, of_tf=False), "--tf-topic")
+refuses("topic_of_a_megabyte", lambda: on_topics(1, "/" + "t" * 2**20, TFMessage, of_tf=False), "x.bag")
 refuses("md5sum_of_another_message", lambda: with_connection(md5sum=b"0" * 32), "tf2_msgs/TFMessage")
 for field in ("topic", "type", "md5sum", "message_definition"):
     refuses_or_reads("connection_without_" + field, lambda field=field: with_connection(**{field: None}))
@@ -211,7 +211,7 @@ def with_frames(*frames):
 
 MESSAGES = {"empty": b"", "count_of_4e9": struct.pack("<I", HUGE), "count_of_60_million": struct.pack("<I", 60000000) + bytes(1000),
             "cut": ros_wire.serialized(TFMessage([frame("b", BEGIN)]))[:50],
-            "name_of_4e9": struct.pack("<IIIIII", 1, 0, BEGIN, 0, 5, HUGE) + bytes(200)}
+            "name_of_4e9": struct.pack("<IIIII", 1, 0, BEGIN, 0, HUGE) + bytes(200)}
 for label, body in MESSAGES.items():
     reads("message_" + label, lambda body=body: with_messages(body), words=("is none of tf",), fast=label == "count_of_4e9")
 FRAMES = {
@@ -278,7 +278,8 @@ def bag_of_no_duration(arena):
         bench = bench_with(arena, bag)
         status, text = bench.run(*PLAY)
         expect(status in (0, 1) and text.strip(), "it ended with %s: %s" % (status, shortened(text[-200:])))
-        expect(status == 1 or distances(bench) in ({0: 1.0}, {}), "the distances are %s" % distances(bench))
+        if status == 0:
+            expect(distances(bench) in ({0: 1.0}, {}), "the distances are %s" % distances(bench))
 
 
 # The other files, and the outputs
@@ -292,7 +293,7 @@ for label, changes, words in (
         ("niches_are_full", ("--niches-output", "/dev/full"), "/dev/full"), ("start_nan", ("--start", "nan"), "start"),
         ("start_1e300", ("--start", "1e300"), "--start"), ("start_negative", ("--start", "-1"), "--start"),
         ("duration_nan", ("--duration", "nan"), "duration"), ("threads_1e9", ("--threads", "1000000000"), "threads"),
-        ("pairs_of_none", ("--pairs", "x" * 100000), "no pair"), ("tf_topic_of_none", ("--tf-topic", "/none"), "/none")):
+        ("pairs_of_none", ("--pairs", "x" * 100000), "--pairs"), ("tf_topic_of_none", ("--tf-topic", "/none"), "/none")):
     def act(arena, changes=changes, words=words):
         bench = bench_with(arena, motion())
         options = dict(zip(PLAY[1::2], PLAY[2::2]))

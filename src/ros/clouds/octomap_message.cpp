@@ -5,7 +5,6 @@
 #include <std_msgs/Header.h>
 
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <sstream>
@@ -17,6 +16,8 @@
 namespace concave_distance {
 namespace {
 
+constexpr double kLeastCell = 1e-6;   // m
+constexpr double kLargestCell = 1e6;  // m
 constexpr unsigned kTreeDepth = 16;
 constexpr std::int32_t kCentreKey = 1 << (kTreeDepth - 1);
 constexpr std::array<const char*, 5> kFields{"Header header", "bool binary", "string id",
@@ -169,10 +170,10 @@ void readTree(const OctomapFields& fields, std::size_t value_size, std::size_t m
 CloudReading readOctomap(const topic_tools::ShapeShifter& message, const CloudSettings& settings) {
   requireDefinition(message.getMessageDefinition());
   const OctomapFields fields = fieldsOf(message);
-  if (!(fields.resolution > 0.0) || !std::isfinite(fields.resolution)) {
+  if (!(fields.resolution >= kLeastCell && fields.resolution <= kLargestCell)) {
     TextStream seen;
     seen << "the value is " << fields.resolution;
-    throw Error("resolution", seen.str(), "a cell needs a positive length, metres");
+    throw Error("resolution", seen.str(), "a cell needs a length of 1e-6 to 1e6 metres");
   }
   CloudReading reading;
   reading.frame = fields.header.frame_id;

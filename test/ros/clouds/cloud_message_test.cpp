@@ -169,7 +169,7 @@ TEST(CloudMessage, CountsWithoutBytesAreRefused) {
   ASSERT_EQ(refusal(withCount(good, fields, 4)) + refusal(withCount(good, data, 24)) +
                 refusal(withCount(good_map, good_map.size() - 6, 2)),
             "");
-  for (const std::uint32_t count : {25U, 60'000'000U, 0xffffffffU}) {
+  for (const std::uint32_t count : {26U, 60'000'000U, 0xffffffffU}) {
     const std::string text = "an array of " + std::to_string(count) + " has ";
     for (const std::string& said :
          {refusal(withCount(good, fields, count)), refusal(withCount(good, data, count)),
@@ -297,7 +297,8 @@ TEST(CloudMessage, WrongMapsAreRefusedWithTheirReason) {
       const std::string said = refusal(asReceived(message));
       EXPECT_NE(said.find(text), std::string::npos) << text << ": " << said;
     };
-    for (const double resolution : {0.0, -1.0, std::nan(""), std::numeric_limits<double>::infinity()})
+    for (const double resolution :
+         {0.0, -1.0, std::nan(""), std::numeric_limits<double>::infinity(), 1e-7, 5e-324, 1e7, 1e300})
       expect("resolution", [&](OctomapMessage& m) { m.resolution = resolution; });
     expect("'CountingOcTree'", [](OctomapMessage& m) { m.id = "CountingOcTree"; });
     expect("cut after", [](OctomapMessage& m) { m.data.pop_back(); });
