@@ -124,7 +124,7 @@ for label, path in {"missing": "none.bag", "a_folder": "/", "dev_zero": "/dev/ze
     group.add("bag_is_" + label, lambda arena, path=path: bench_with(arena, b"").refused(
         "distance_bag", "--bag", path, *PLAY[3:], words=(path,), left_behind=("d.csv",)), deadline=60.0)
 
-# What it says of itself
+# The attacks below change what a bag says of itself.
 
 HUGE = 2**32 - 1
 LIES = {

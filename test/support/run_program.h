@@ -10,7 +10,7 @@
 namespace concave_distance::test {
 
 /// Runs a program in a folder, which has its cache too, and returns the exit status; -1: a signal ended it.
-/// What it prints goes to the folder's file "log".
+/// The file "log" of the folder gets what it prints.
 inline int runIn(const TemporaryFolder& folder, const std::string& program, const std::string& arguments) {
   const std::string command = "cd " + folder.path() + " && XDG_CACHE_HOME=" + folder.path("cache") + " " +
                               program + " " + arguments + " > log 2>&1";
