@@ -60,21 +60,21 @@ install_packages() {
       libfcl-dev | pybind11-dev) ;;  # of Debian
       *) if inside apt-cache show "$package" >/dev/null 2>&1; then wanted+=("$package"); else say "Ubuntu has no $package"; fi ;;
     esac
-  done < <("$package_dir/scripts/install_dependencies.sh" --print debian build test)
+  done <<<"$wanted_now"
   inside apt-get -q -y install --no-install-recommends "${wanted[@]}" ccache libccd-dev libdiagnostic-msgs-dev liboctomap-dev
 }
 
-if [ ! -f "$folder/complete" ]; then
-  make_root
+wanted_now="$("$package_dir/scripts/install_dependencies.sh" --print debian build test)"
+if [ ! -d "$root" ] || [ ! -f "$folder/complete" ]; then make_root; fi
+mount -t proc proc "$root/proc"
+# A root folder of before gets what the package has come to need since.
+if [ "$wanted_now" != "$(cat "$folder/complete" 2>/dev/null)" ]; then
   cp /etc/resolv.conf "$root/etc/resolv.conf"
-  mount -t proc proc "$root/proc"
   inside apt-get -q update
   install_packages
   from_debian bookworm libcli11-dev librapidcheck-dev
   from_debian bullseye libdiagnostic-updater-dev pybind11-dev libfcl-dev libfcl0.6
-  touch "$folder/complete"
-else
-  mount -t proc proc "$root/proc"
+  printf '%s\n' "$wanted_now" >"$folder/complete"
 fi
 
 mkdir -p "$root/source" "$root/build"
