@@ -1,7 +1,8 @@
 #include "obj_text.h"
 
 #include <array>
-#include <charconv>
+
+#include "base/number_characters.h"
 
 namespace concave_distance::detail {
 namespace {
@@ -10,9 +11,7 @@ constexpr int kDigits = 17;
 
 void append(std::string& text, double value) {
   std::array<char, 32> number{};
-  char* const end = number.data() + number.size();
-  char* const last = std::to_chars(number.data(), end, value, std::chars_format::general, kDigits).ptr;
-  text.append(number.data(), last);
+  text.append(number.data(), writeGeneral(number.data(), number.data() + number.size(), value, kDigits));
 }
 
 std::uint64_t numberOf(std::uint32_t corner) {
@@ -27,7 +26,7 @@ std::string textOf(const std::vector<Eigen::Vector3d>& vertices, const Triangles
   std::string text;
   for (const Eigen::Vector3d& vertex : vertices) {
     text += 'v';
-    for (const double coordinate : vertex) append(text += ' ', coordinate);
+    for (int axis = 0; axis < 3; ++axis) append(text += ' ', vertex[axis]);
     text += '\n';
   }
   for (const auto& triangle : triangles) {
