@@ -1,7 +1,8 @@
 """A fresh node that loads the scene as it is now and says what a node that has run for hours should say.
 
-The edits rest meanwhile, and the camera until the diagnostics say that its newest message is served. Of some messages of `distances` every pair is asked again, at the stamp that it has there, of a node that was started a moment
-ago, has the same transforms and gets that message of the camera.
+The edits rest meanwhile, and the camera until the diagnostics say that its newest message is served. Of some messages
+of `distances` every pair is asked again, at the stamp that it has there, of a node that was started a moment ago, has
+the same transforms and gets that message of the camera.
 """
 
 import os
@@ -201,7 +202,8 @@ class Comparer:
             while time.monotonic() < end:
                 cloud, messages = self.newest_cloud(), self.collected()
                 # Messages that were on their way when the camera was stopped have come by then.
-                if self.reports.stamp_after(time.monotonic()) == stamp_text(cloud) == stamp_text(self.newest_cloud()):
+                stamp = self.reports.stamp_after(time.monotonic())
+                if len(messages) >= SAMPLES and stamp == stamp_text(cloud) == stamp_text(self.newest_cloud()):
                     return messages, cloud
         finally:
             os.kill(camera, signal.SIGCONT)

@@ -10,9 +10,9 @@ from diagnostic_msgs.msg import DiagnosticArray
 from rosgraph_msgs.msg import Log
 
 NODE = "concave_distance/"
-KEPT = 100         # messages that are kept for a comparison
+KEPT = 100          # messages that are kept for a comparison
 LONGEST_WAIT = 3.0  # s for diagnostics
-SAME_PLACE = 1e-3  # m on the body that rests: a niche that ends and another that begins there are one
+SAME_PLACE = 1e-3   # m on the body that rests: a niche that ends and another that begins there are one
 
 
 class Stream:

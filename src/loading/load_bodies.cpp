@@ -32,7 +32,7 @@ std::vector<LoadedBody> loadBodies(const std::vector<BodyDescription>& descripti
     if (loaded[i].body) continue;
     const std::string where = "body '" + descriptions[i].name + "'";
     std::string& problem = built[i].problem;
-    if (problem.rfind(where + ": ", 0) == 0) problem.erase(0, where.size() + 2);  // it is said once
+    if (problem.rfind(where + ": ", 0) == 0) problem.erase(0, where.size() + 2);  // `where` has it
     loaded[i].problem.emplace(where, problem, "it is not added");
   }
   return loaded;

@@ -58,8 +58,8 @@ class SteppedPlayer {
   void standStill() {
     for (const tf2_msgs::TFMessage& message : stands_) fixed_.publish(message);
   }
-  /// Stands where the bag begins, from so many seconds before, until the condition holds. What comes before
-  /// the clock has told the node of these seconds is refused there, and sent again.
+  /// Stands where the bag begins, from so many seconds before, until the condition holds. The node
+  /// refuses transforms until its clock has come there: they are sent again and again.
   bool standBefore(double seconds, const std::function<bool()>& is_ready) {
     ros::Time now = stamp(0) - ros::Duration(seconds);
     const ros::Time end = stamp(0) - ros::Duration(0.2 * seconds);
