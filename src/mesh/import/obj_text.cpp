@@ -1,18 +1,11 @@
 #include "obj_text.h"
 
-#include <array>
-
-#include "base/number_characters.h"
+#include "base/number_text.h"
 
 namespace concave_distance::detail {
 namespace {
 
 constexpr int kDigits = 17;
-
-void append(std::string& text, double value) {
-  std::array<char, 32> number{};
-  text.append(number.data(), writeGeneral(number.data(), number.data() + number.size(), value, kDigits));
-}
 
 std::uint64_t numberOf(std::uint32_t corner) {
   return std::uint64_t{corner} + 1;
@@ -26,7 +19,7 @@ std::string textOf(const std::vector<Eigen::Vector3d>& vertices, const Triangles
   std::string text;
   for (const Eigen::Vector3d& vertex : vertices) {
     text += 'v';
-    for (int axis = 0; axis < 3; ++axis) append(text += ' ', vertex[axis]);
+    for (int axis = 0; axis < 3; ++axis) (text += ' ') += numberText(vertex[axis], kDigits);
     text += '\n';
   }
   for (const auto& triangle : triangles) {
