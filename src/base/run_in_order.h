@@ -8,7 +8,7 @@
 #include <atomic>
 #include <cstddef>
 
-#include "helping_threads.h"
+#include "thread_team.h"
 
 namespace concave_distance {
 
@@ -18,12 +18,12 @@ template <std::size_t Count, typename Work, typename Take>
 class RunInOrder {
  public:
   RunInOrder(std::size_t count, const Work& work, const Take& take)
-      : count_(count), work_(work), take_(take), helpers_(*HelpingThreads::current()) {}
+      : count_(count), work_(work), take_(take), team_(*ThreadTeam::current()) {}
 
   void run(std::size_t threads) {
     tbb::this_task_arena::isolate([&] {
       tbb::parallel_for(
-          std::size_t{0}, std::min(threads, count_), [&](std::size_t) { helpers_.share([&] { goOn(); }); },
+          std::size_t{0}, std::min(threads, count_), [&](std::size_t) { team_.share([&] { goOn(); }); },
           tbb::simple_partitioner());
     });
     takeReady();
@@ -46,7 +46,7 @@ class RunInOrder {
   std::size_t count_;
   const Work& work_;
   const Take& take_;
-  HelpingThreads& helpers_;
+  ThreadTeam& team_;
   std::atomic<std::size_t> next_{0};
   std::atomic<bool> taking_{false};
   std::size_t taken_ = 0;  ///< of the thread that takes

@@ -5,9 +5,9 @@
 #include <array>
 #include <utility>
 
-#include "base/helper_threads.h"
 #include "base/made_once.h"
 #include "base/number_text.h"
+#include "base/run_together.h"
 #include "body_key.h"
 #include "cached_parts.h"
 #include "concave_distance/base/error.h"

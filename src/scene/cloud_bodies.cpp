@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "base/helper_threads.h"
+#include "base/run_together.h"
 #include "concave_distance/base/error.h"
 #include "distance/bound/closest_point.h"
 #include "matching_bodies.h"

@@ -33,7 +33,7 @@ void CycleSolver::reserve(std::size_t pairs) {
 
 // Grids and metrics of bodies whose niches are searched for the first time are made together, in parallel.
 void CycleSolver::begin(const std::vector<TrackedPair*>& pairs) {
-  helpers_.begin();
+  team_.begin();
   pairs_.assign(pairs.begin(), pairs.end());
   if (isStopped()) return;
   to_prepare_.clear();
@@ -52,7 +52,7 @@ void CycleSolver::begin(const std::vector<TrackedPair*>& pairs) {
 template <typename Act>
 void CycleSolver::forEach(std::size_t count, const Act& act) {
   if (count == 0) return;
-  const auto shared = [&](std::size_t index) { helpers_.share([&] { act(index); }); };
+  const auto shared = [&](std::size_t index) { team_.share([&] { act(index); }); };
   arena_.execute([&] {
     if (is_serial_ || count == 1) {
       for (std::size_t index = 0; index < count; ++index) shared(index);

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "base/helping_threads.h"
+#include "base/thread_team.h"
 #include "concave_distance/base/work_limit.h"
 #include "concave_distance/scene/tracked_pair.h"
 #include "solving_order.h"
@@ -30,7 +30,7 @@ class CycleSolver {
   /// for is put off.
   void solveUntil(WorkLimit::Clock::time_point end);
   /// Returns the processor time of the threads that helped the caller's since begin().
-  double helperSeconds() const { return helpers_.seconds(); }
+  double helperSeconds() const { return team_.seconds(); }
 
  private:
   /// A pair in the order of a cycle with an end.
@@ -53,7 +53,7 @@ class CycleSolver {
   bool is_serial_;
   const std::atomic<bool>* stop_;
   tbb::task_arena arena_;
-  HelpingThreads helpers_;
+  ThreadTeam team_;
   std::vector<TrackedPair*> pairs_;
   std::vector<Turn> turns_;
   std::vector<const BodyMesh*> to_prepare_;

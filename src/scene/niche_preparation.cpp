@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "base/give_way.h"
-#include "base/helper_threads.h"
+#include "base/run_together.h"
 #include "body_preparation.h"
 #include "cloud_bodies.h"
 #include "concave_distance/search/prepare_search.h"

@@ -9,8 +9,8 @@
 #include <sstream>
 #include <string>
 
-#include "base/helper_threads.h"
 #include "base/output_file.h"
+#include "base/run_together.h"
 #include "base/run_tool.h"
 #include "base/versions.h"
 #include "concave_distance/loading/load_body_mesh.h"

@@ -17,7 +17,7 @@
 #include <chrono>
 #include <filesystem>
 
-#include "base/helper_threads.h"
+#include "base/run_together.h"
 #include "benchmark/support/benchmark_main.h"
 #include "benchmark/support/fcl_distance.h"
 #include "benchmark/support/result_table.h"

@@ -16,7 +16,7 @@
 #include <cstdio>
 #include <fstream>
 
-#include "base/helping_threads.h"
+#include "base/thread_team.h"
 #include "benchmark/support/benchmark_main.h"
 #include "benchmark/support/benchmark_pairs.h"
 #include "benchmark/support/stopwatch.h"

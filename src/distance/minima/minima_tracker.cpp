@@ -124,7 +124,7 @@ class MinimaTracker::Stage {
   void runSlices() {
     ConeSlices& slices = front_.slices_;
     front_.counts_.slices += static_cast<std::uint32_t>(slices.used());
-    const std::size_t threads = HelpingThreads::countHere();
+    const std::size_t threads = ThreadTeam::countHere();
     const WorkLimit time = limit_.withoutMemory();
     const auto look = [&](std::size_t i) {
       WorkLimit own = time;

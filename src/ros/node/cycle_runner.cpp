@@ -8,7 +8,7 @@
 #include <string>
 #include <utility>
 
-#include "base/helping_threads.h"
+#include "base/thread_team.h"
 #include "node_parameters.h"
 #include "ros/callback_guard.h"
 #include "ros/time_difference.h"

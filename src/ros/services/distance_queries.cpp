@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include "base/helper_threads.h"
+#include "base/run_together.h"
 #include "base/short_text.h"
 #include "concave_distance/base/error.h"
 #include "ros/messages/conversions.h"

@@ -8,7 +8,7 @@
 #include <cstring>
 
 #include "base/constants.h"
-#include "base/helping_threads.h"
+#include "base/thread_team.h"
 #include "distance/minima/front_checks.h"
 #include "distance/minima/minima_tracker.h"
 #include "support/body_motions.h"
@@ -33,9 +33,9 @@ void executeWith(int threads, const Work& work) {
   const tbb::global_control workers(tbb::global_control::max_allowed_parallelism,
                                     static_cast<std::size_t>(threads));
   tbb::task_arena arena(threads);
-  HelpingThreads helpers;
-  helpers.begin();
-  arena.execute([&] { helpers.share(work); });
+  ThreadTeam team;
+  team.begin();
+  arena.execute([&] { team.share(work); });
 }
 
 /// Everything that a call leaves.

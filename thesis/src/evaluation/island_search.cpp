@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <thread>
 
-#include "base/helping_threads.h"
 #include "base/parameter_checks.h"
+#include "base/thread_team.h"
 #include "thesis/src/genetic/generation_gap.h"
 
 namespace concave_distance {

@@ -1,4 +1,4 @@
-#include "base/helper_threads.h"
+#include "base/run_together.h"
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -12,7 +12,7 @@
 #include <iterator>
 #include <thread>
 
-namespace concave_distance::helper_threads_test {
+namespace concave_distance::run_together_test {
 namespace {
 
 std::size_t runs(std::size_t helpers) {
@@ -87,4 +87,4 @@ TEST(OwnThreads, WhatTheFirstStageThrowsArrivesOnceAllHaveEnded) {
 }
 
 }  // namespace
-}  // namespace concave_distance::helper_threads_test
+}  // namespace concave_distance::run_together_test

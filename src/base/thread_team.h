@@ -15,7 +15,7 @@ std::int64_t threadCpuNanoseconds();
 
 /// Threads of an arena that may help the one which called begin(), and the processor time that they use. Work
 /// that nobody has invited helpers for stays on the caller's thread.
-class HelpingThreads {
+class ThreadTeam {
  public:
   void begin() {
     caller_ = std::this_thread::get_id();
@@ -24,7 +24,7 @@ class HelpingThreads {
   double seconds() const { return 1e-9 * static_cast<double>(nanoseconds_.load()); }
 
   /// Those invited to the calling thread's work; nullptr: none.
-  static HelpingThreads* current() { return current_; }
+  static ThreadTeam* current() { return current_; }
   /// Threads that may do the caller's work, itself included.
   static std::size_t countHere() {
     if (current_ == nullptr) return 1;
@@ -47,7 +47,7 @@ class HelpingThreads {
  private:
   class Span {
    public:
-    explicit Span(HelpingThreads& of)
+    explicit Span(ThreadTeam& of)
         : of_(of),
           before_(std::exchange(current_, &of)),
           is_helper_(std::this_thread::get_id() != of.caller_),
@@ -60,13 +60,13 @@ class HelpingThreads {
     Span& operator=(const Span&) = delete;
 
    private:
-    HelpingThreads& of_;
-    HelpingThreads* before_;
+    ThreadTeam& of_;
+    ThreadTeam* before_;
     bool is_helper_;
     std::int64_t start_;
   };
 
-  static thread_local HelpingThreads* current_;
+  static thread_local ThreadTeam* current_;
 
   std::thread::id caller_;
   std::atomic<std::int64_t> nanoseconds_{0};

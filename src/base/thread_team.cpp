@@ -1,4 +1,4 @@
-#include "helping_threads.h"
+#include "thread_team.h"
 
 #include <ctime>
 
@@ -10,6 +10,6 @@ std::int64_t threadCpuNanoseconds() {
   return std::int64_t{time.tv_sec} * 1'000'000'000 + time.tv_nsec;
 }
 
-thread_local HelpingThreads* HelpingThreads::current_ = nullptr;
+thread_local ThreadTeam* ThreadTeam::current_ = nullptr;
 
 }  // namespace concave_distance

@@ -1,4 +1,4 @@
-#include "helper_threads.h"
+#include "run_together.h"
 
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
