@@ -162,16 +162,16 @@ CloudReading readCloud(const topic_tools::ShapeShifter& message, const CloudSett
   if (type == ros::message_traits::datatype<PointCloud2>()) {
     const std::string md5sum = ros::message_traits::md5sum<PointCloud2>();
     if (message.getMD5Sum() != md5sum) {
-      throw Error(type, "its definition has md5sum " + message.getMD5Sum() + ", not " + md5sum,
-                  "the publisher must use the definition of this distribution");
+      throw OtherType(type, "its definition has md5sum " + message.getMD5Sum() + ", not " + md5sum,
+                      "the publisher must use the definition of this distribution");
     }
     MessageBytes bytes(message);
     reading = readPoints(fieldsOf(bytes), settings);
   } else if (type == kOctomapType) {
     reading = readOctomap(message, settings);
   } else {
-    throw Error("topic '" + settings.topic + "'", "its type is '" + type + "'",
-                std::string("sensor_msgs/PointCloud2 and ") + kOctomapType + " are known");
+    throw OtherType("topic '" + settings.topic + "'", "its type is '" + type + "'",
+                    std::string("sensor_msgs/PointCloud2 and ") + kOctomapType + " are known");
   }
   reading.frame = requireFrameName(reading.frame, "header.frame_id");
   return reading;

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "concave_distance/base/error.h"
 #include "concave_distance/scene/cloud.h"
 
 namespace concave_distance {
@@ -22,7 +23,13 @@ struct CloudReading {
   std::optional<VoxelGrid> map;         ///< instead of points, in `frame`
 };
 
-/// Reads a message of either type. @throws Error naming type, field or size that is wrong and what is
+/// A message has a type or a definition that is not known.
+class OtherType : public Error {
+ public:
+  using Error::Error;
+};
+
+/// Reads a message of either type. @throws OtherType, or Error naming field or size that is wrong and what is
 /// expected
 CloudReading readCloud(const topic_tools::ShapeShifter& message, const CloudSettings& settings);
 

@@ -19,6 +19,7 @@ namespace concave_distance {
 namespace {
 
 constexpr std::uint32_t kCloudQueueLength = 1;
+constexpr std::chrono::seconds kSubscribeAgain{2};  // at the earliest
 
 // Ends the use of a message whose cloud is not in the scene any more.
 struct Gone {};
@@ -35,23 +36,19 @@ std::string tooLate(double seconds, const CloudSettings& settings) {
 
 CloudReceiver::CloudReceiver(ros::NodeHandle node, const SceneBody& body, SceneStore& keeper,
                              const TransformBuffer& transforms, double transform_timeout)
-    : name_(body.name),
+    : node_(std::move(node)),
+      name_(body.name),
       frame_(body.frame),
       settings_(body.cloud->settings),
       keeper_(keeper),
       transforms_(transforms),
       transform_timeout_(transform_timeout) {
   report_.name = name_;
-  report_.topic = node.resolveName(settings_->topic);
+  report_.topic = node_.resolveName(settings_->topic);
   thread_ = std::thread([this] { work(); });
-  subscriber_ = node.subscribe<topic_tools::ShapeShifter>(
-      settings_->topic, kCloudQueueLength,
-      [this](const topic_tools::ShapeShifter::ConstPtr& message) { receive(message); }, ros::VoidConstPtr(),
-      ros::TransportHints().tcpNoDelay());
 }
 
 CloudReceiver::~CloudReceiver() {
-  subscriber_.shutdown();
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     is_ending_ = true;
@@ -80,8 +77,19 @@ void CloudReceiver::receive(const topic_tools::ShapeShifter::ConstPtr& message) 
   arrived_.notify_all();
 }
 
+// roscpp connects to publishers of the first one's type alone, until nobody subscribes.
+void CloudReceiver::subscribe() {
+  subscriber_.shutdown();
+  subscriber_ = node_.subscribe<topic_tools::ShapeShifter>(
+      settings_->topic, kCloudQueueLength,
+      [this](const topic_tools::ShapeShifter::ConstPtr& message) { receive(message); }, ros::VoidConstPtr(),
+      ros::TransportHints().tcpNoDelay());
+  subscribed_ = Clock::now();
+}
+
 void CloudReceiver::work() {
   giveWay();
+  guarded("A cloud", [&] { subscribe(); });
   const auto period =
       std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1.0 / settings_->rate));
   Clock::time_point due = Clock::now();
@@ -100,6 +108,7 @@ void CloudReceiver::work() {
 
 void CloudReceiver::use(const Arrival& arrival) {
   std::string problem;
+  bool is_other_type = false;
   try {
     const CloudReading reading = readCloud(*arrival.message, *settings_);
     const ros::Time stamp = reading.stamp.isZero() ? ros::Time::now() : reading.stamp;
@@ -135,11 +144,15 @@ void CloudReceiver::use(const Arrival& arrival) {
     return;
   } catch (const Gone&) {
     return;
+  } catch (const OtherType& error) {
+    problem = error.what();
+    is_other_type = true;
   } catch (const Error& error) {
     problem = error.what();
   } catch (const std::bad_alloc&) {
     problem = "there is not enough memory for this cloud (thin it, or use larger voxels)";
   }
+  if (is_other_type && Clock::now() - subscribed_ > kSubscribeAgain) subscribe();
   const std::lock_guard<std::mutex> lock(mutex_);
   ++report_.refused;
   ++report_.refused_lately;

@@ -46,10 +46,12 @@ class CloudReceiver {
   };
 
   void receive(const topic_tools::ShapeShifter::ConstPtr& message);
+  void subscribe();
   void work();
   void use(const Arrival& arrival);
   void serve(const SceneBody& body, const CloudVoxels& made, ros::Time stamp);
 
+  ros::NodeHandle node_;
   std::string name_;
   std::string frame_;
   std::shared_ptr<const CloudSettings> settings_;
@@ -64,8 +66,9 @@ class CloudReceiver {
   CloudReport report_;
   LogThrottle throttle_;
 
-  std::thread thread_;
-  ros::Subscriber subscriber_;  ///< last member: no message comes before the others are there
+  Clock::time_point subscribed_;  ///< this and the subscriber: of the thread alone
+  ros::Subscriber subscriber_;
+  std::thread thread_;  ///< last member: it begins when the others are there
 };
 
 }  // namespace concave_distance

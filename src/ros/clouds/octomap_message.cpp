@@ -52,15 +52,16 @@ void requireDefinition(const std::string& definition) {
   const std::vector<std::string> fields = fieldsOf(definition);
   for (std::size_t i = 0; i < kFields.size(); ++i) {
     if (i < fields.size() && fields[i] == kFields[i]) continue;
-    throw Error(std::string("definition of ") + kOctomapType,
-                "field " + std::to_string(i + 1) + " is " +
-                    (i < fields.size() ? "'" + fields[i] + "'" : "missing") + ", not '" + kFields[i] + "'",
-                "the publisher must use the definition of ROS Noetic");
+    throw OtherType(std::string("definition of ") + kOctomapType,
+                    "field " + std::to_string(i + 1) + " is " +
+                        (i < fields.size() ? "'" + fields[i] + "'" : "missing") + ", not '" + kFields[i] +
+                        "'",
+                    "the publisher must use the definition of ROS Noetic");
   }
   if (fields.size() > kFields.size()) {
-    throw Error(std::string("definition of ") + kOctomapType,
-                "there is a field '" + fields[kFields.size()] + "', which is not known",
-                "the publisher must use the definition of ROS Noetic");
+    throw OtherType(std::string("definition of ") + kOctomapType,
+                    "there is a field '" + fields[kFields.size()] + "', which is not known",
+                    "the publisher must use the definition of ROS Noetic");
   }
 }
 

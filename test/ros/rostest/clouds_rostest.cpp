@@ -10,6 +10,7 @@
 #include <ros/publisher.h>
 #include <sensor_msgs/PointCloud2.h>
 #include <sensor_msgs/point_cloud2_iterator.h>
+#include <std_msgs/String.h>
 
 #include <algorithm>
 #include <array>
@@ -91,14 +92,19 @@ class Sensor {
   std::thread thread_;
 };
 
-/// Frames at rest, the listener to distances, and the sensor.
-struct Cell {
-  Cell() : distances(kNode + "distances") {
+struct FramesAtRest {
+  FramesAtRest() {
     player.place("probe", 0.0);
     player.place("base", -10.0);
     player.place("slide", -10.0);
     player.place("tip", 10.0);
   }
+  TfPlayer player;
+};
+
+/// Frames at rest, the listener to distances, and the sensor.
+struct Cell : FramesAtRest {
+  Cell() : distances(kNode + "distances") {}
 
   const PairDistance* find(const Distances& message, const std::string& pair) const {
     const auto found = std::find_if(message.pairs.begin(), message.pairs.end(),
@@ -121,7 +127,6 @@ struct Cell {
     });
   }
 
-  TfPlayer player;
   Collector<Distances> distances;
   Sensor sensor;
 };
@@ -253,6 +258,40 @@ TEST(Clouds, MalformedMessagesAreRefusedAndTheLastOneStays) {
   EXPECT_TRUE(cell.waitForDistance("probe_seen", gapTo(1.0)));
 }
 
+void removeCloud() {
+  RemoveBodyRequest removal;
+  removal.name = "seen";
+  EXPECT_TRUE(call<RemoveBody>(kNode + "remove_body", removal).success);
+}
+
+void loadSceneAgain() {
+  ReloadRequest request;
+  request.drop_edits = 1;
+  EXPECT_TRUE(call<Reload>(kNode + "reload", request).success);
+}
+
+TEST(Clouds, AreServedAfterAPublisherOfAnotherType) {
+  const FramesAtRest frames;
+  Collector<diagnostic_msgs::DiagnosticArray> diagnostics("/diagnostics");
+  {
+    ros::NodeHandle node;
+    const ros::Publisher wrong = node.advertise<std_msgs::String>("/points", 1);
+    removeCloud();
+    loadSceneAgain();  // subscribes while no other publisher is there
+    EXPECT_TRUE(eventually([&] {
+      wrong.publish(std_msgs::String());
+      return diagnostics.waitFor(
+          [](const diagnostic_msgs::DiagnosticArray& message) {
+            return diagnosed(message, "seen last refusal").find("std_msgs/String") != std::string::npos;
+          },
+          0.5);
+    }));
+  }
+  Cell cell;
+  cell.sensor.see({{1.05F, 0.05F, 0.05F}});
+  EXPECT_TRUE(cell.waitForDistance("probe_seen", gapTo(1.0)));
+}
+
 test::OctomapMessage mapOf(const std::vector<Point>& occupied, const std::string& frame) {
   octomap::OcTree tree(0.25);
   for (const Point& point : occupied) tree.updateNode(octomap::point3d(point[0], point[1], point[2]), true);
@@ -297,14 +336,10 @@ TEST(Clouds, EditsLeaveThemAndOnlyRemovingTakesThem) {
   EXPECT_TRUE(reloaded.success) << reloaded.message;
   EXPECT_EQ(std::count(reloaded.kept.begin(), reloaded.kept.end(), "seen"), 1);
   EXPECT_NEAR(query("probe", "seen").nearest.distance, gapTo(2.0), 1e-9);
-  RemoveBodyRequest removal;
-  removal.name = "seen";
-  EXPECT_TRUE(call<RemoveBody>(kNode + "remove_body", removal).success);
+  removeCloud();
   EXPECT_TRUE(cell.distances.waitFor(
       [&](const Distances& message) { return cell.find(message, "probe_seen") == nullptr; }));
-  ReloadRequest again;
-  again.drop_edits = 1;
-  EXPECT_TRUE(call<Reload>(kNode + "reload", again).success);
+  loadSceneAgain();
   EXPECT_TRUE(cell.waitForDistance("probe_seen", gapTo(2.0)));
 }
 
