@@ -171,6 +171,11 @@ class Scenes(unittest.TestCase):
             cd.load_robot(path, cache="off", strict=True)
         self.assertIn("in mesh_folders", str(caught.exception))
 
+    def test_messages_keep_paths_with_a_tilde(self):
+        with self.assertRaises(cd.Error) as caught:
+            cd.load_scene("~ann/cell.yaml", cache="off")
+        self.assertIn("~ann/cell.yaml", str(caught.exception))
+
     def test_none_is_no_scene(self):
         for make in (cd.SceneTracker, cd.ConstraintRows):
             with self.assertRaises(TypeError):
