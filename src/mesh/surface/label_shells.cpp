@@ -66,8 +66,9 @@ std::vector<bool> findFlatSets(const std::vector<Eigen::Vector3d>& vertices,
     const Eigen::Vector3d normal = plane.along.cross(corner - plane.point);
     if (normal.squaredNorm() > plane.normal.squaredNorm()) plane.normal = normal;
   });
+  for (Plane& plane : planes) plane.normal.stableNormalize();
   for_each_corner([](Plane& plane, const Eigen::Vector3d& corner) {
-    const double height = std::abs(plane.normal.stableNormalized().dot(corner - plane.point));
+    const double height = std::abs(plane.normal.dot(corner - plane.point));
     plane.is_flat = plane.is_flat && height <= kRounding * plane.along.norm();
   });
   std::vector<bool> is_flat(triangles.size());

@@ -1,7 +1,9 @@
 #include "concave_distance/mesh/surface/voxels.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <memory_resource>
 #include <unordered_map>
 #include <utility>
 
@@ -12,6 +14,7 @@ namespace concave_distance {
 namespace {
 
 constexpr unsigned kBitsOfIndex = 21;
+constexpr std::uint32_t kUnknown = 0xffffffffU;
 
 // Corners reach one further than cells.
 std::uint64_t packed(const VoxelCell& cell) {
@@ -27,6 +30,7 @@ class SurfaceBuilder {
 
   SurfaceMesh build(const std::string& where) {
     for (const VoxelCell& cell : grid_.cells()) {
+      of_cell_.fill(kUnknown);
       for (std::size_t axis = 0; axis < 3; ++axis) {
         addFace(cell, axis, false);
         addFace(cell, axis, true);
@@ -45,13 +49,13 @@ class SurfaceBuilder {
     const std::size_t second = (axis + 1) % 3;
     const std::size_t third = (axis + 2) % 3;
     std::array<NodeIndex, 4> nodes;  // around the face, counterclockwise seen from along the axis
-    nodes[0] = vertex(corner);
+    nodes[0] = vertex(cell, corner);
     ++corner[second];
-    nodes[1] = vertex(corner);
+    nodes[1] = vertex(cell, corner);
     ++corner[third];
-    nodes[2] = vertex(corner);
+    nodes[2] = vertex(cell, corner);
     --corner[second];
-    nodes[3] = vertex(corner);
+    nodes[3] = vertex(cell, corner);
     if (!above) std::swap(nodes[1], nodes[3]);
     triangles_.push_back({nodes[0], nodes[1], nodes[2]});
     triangles_.push_back({nodes[0], nodes[2], nodes[3]});
@@ -63,17 +67,28 @@ class SurfaceBuilder {
     });
   }
 
-  NodeIndex vertex(const VoxelCell& corner) {
+  /// Returns the number of a corner of the cell whose faces are being added.
+  NodeIndex vertex(const VoxelCell& cell, const VoxelCell& corner) {
+    std::size_t place = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis) place = 2 * place + (corner[axis] > cell[axis] ? 1 : 0);
+    std::uint32_t& number = of_cell_[place];
+    if (number == kUnknown) number = findOrAdd(corner);
+    return NodeIndex{number};
+  }
+
+  std::uint32_t findOrAdd(const VoxelCell& corner) {
     const auto [place, is_new] =
         numbers_.emplace(packed(corner), static_cast<std::uint32_t>(vertices_.size()));
     if (is_new) vertices_.emplace_back(grid_.size() * Eigen::Vector3d(corner[0], corner[1], corner[2]));
-    return NodeIndex{place->second};
+    return place->second;
   }
 
   const VoxelGrid& grid_;
   std::vector<Eigen::Vector3d> vertices_;
   std::vector<TriangleNodes> triangles_;
-  std::unordered_map<std::uint64_t, std::uint32_t> numbers_;
+  std::array<std::uint32_t, 8> of_cell_{};  ///< vertices at the corners of one cell
+  std::pmr::monotonic_buffer_resource memory_;
+  std::pmr::unordered_map<std::uint64_t, std::uint32_t> numbers_{&memory_};
 };
 
 }  // namespace
