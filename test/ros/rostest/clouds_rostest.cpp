@@ -49,8 +49,8 @@ sensor_msgs::PointCloud2 cloudOf(const std::vector<Point>& points, const std::st
 /// Publishes the same points again and again with the time of now, as a sensor does.
 class Sensor {
  public:
-  Sensor()
-      : publisher_(node_.advertise<sensor_msgs::PointCloud2>("/points", 1)), thread_([this] { play(); }) {}
+  explicit Sensor(const std::string& topic)
+      : publisher_(node_.advertise<sensor_msgs::PointCloud2>(topic, 1)), thread_([this] { play(); }) {}
   ~Sensor() {
     runs_ = false;
     thread_.join();
@@ -92,19 +92,14 @@ class Sensor {
   std::thread thread_;
 };
 
-struct FramesAtRest {
-  FramesAtRest() {
+/// Frames at rest, the listener to distances, and the sensor.
+struct Cell {
+  Cell() : distances(kNode + "distances") {
     player.place("probe", 0.0);
     player.place("base", -10.0);
     player.place("slide", -10.0);
     player.place("tip", 10.0);
   }
-  TfPlayer player;
-};
-
-/// Frames at rest, the listener to distances, and the sensor.
-struct Cell : FramesAtRest {
-  Cell() : distances(kNode + "distances") {}
 
   const PairDistance* find(const Distances& message, const std::string& pair) const {
     const auto found = std::find_if(message.pairs.begin(), message.pairs.end(),
@@ -127,8 +122,9 @@ struct Cell : FramesAtRest {
     });
   }
 
+  TfPlayer player;
   Collector<Distances> distances;
-  Sensor sensor;
+  Sensor sensor{"/points"};
 };
 
 PairNiches query(const std::string& body_a, const std::string& body_b) {
@@ -258,38 +254,24 @@ TEST(Clouds, MalformedMessagesAreRefusedAndTheLastOneStays) {
   EXPECT_TRUE(cell.waitForDistance("probe_seen", gapTo(1.0)));
 }
 
-void removeCloud() {
-  RemoveBodyRequest removal;
-  removal.name = "seen";
-  EXPECT_TRUE(call<RemoveBody>(kNode + "remove_body", removal).success);
-}
-
-void loadSceneAgain() {
-  ReloadRequest request;
-  request.drop_edits = 1;
-  EXPECT_TRUE(call<Reload>(kNode + "reload", request).success);
-}
-
 TEST(Clouds, AreServedAfterAPublisherOfAnotherType) {
-  const FramesAtRest frames;
+  Cell cell;
   Collector<diagnostic_msgs::DiagnosticArray> diagnostics("/diagnostics");
   {
     ros::NodeHandle node;
-    const ros::Publisher wrong = node.advertise<std_msgs::String>("/points", 1);
-    removeCloud();
-    loadSceneAgain();  // subscribes while no other publisher is there
+    const ros::Publisher wrong = node.advertise<std_msgs::String>("/odd_points", 1);
     EXPECT_TRUE(eventually([&] {
       wrong.publish(std_msgs::String());
       return diagnostics.waitFor(
           [](const diagnostic_msgs::DiagnosticArray& message) {
-            return diagnosed(message, "seen last refusal").find("std_msgs/String") != std::string::npos;
+            return diagnosed(message, "odd last refusal").find("std_msgs/String") != std::string::npos;
           },
           0.5);
     }));
   }
-  Cell cell;
-  cell.sensor.see({{1.05F, 0.05F, 0.05F}});
-  EXPECT_TRUE(cell.waitForDistance("probe_seen", gapTo(1.0)));
+  Sensor sensor("/odd_points");
+  sensor.see({{1.05F, 0.05F, 0.05F}});
+  EXPECT_TRUE(cell.waitForDistance("probe_odd", gapTo(1.0)));
 }
 
 test::OctomapMessage mapOf(const std::vector<Point>& occupied, const std::string& frame) {
@@ -336,10 +318,14 @@ TEST(Clouds, EditsLeaveThemAndOnlyRemovingTakesThem) {
   EXPECT_TRUE(reloaded.success) << reloaded.message;
   EXPECT_EQ(std::count(reloaded.kept.begin(), reloaded.kept.end(), "seen"), 1);
   EXPECT_NEAR(query("probe", "seen").nearest.distance, gapTo(2.0), 1e-9);
-  removeCloud();
+  RemoveBodyRequest removal;
+  removal.name = "seen";
+  EXPECT_TRUE(call<RemoveBody>(kNode + "remove_body", removal).success);
   EXPECT_TRUE(cell.distances.waitFor(
       [&](const Distances& message) { return cell.find(message, "probe_seen") == nullptr; }));
-  loadSceneAgain();
+  ReloadRequest again;
+  again.drop_edits = 1;
+  EXPECT_TRUE(call<Reload>(kNode + "reload", again).success);
   EXPECT_TRUE(cell.waitForDistance("probe_seen", gapTo(2.0)));
 }
 
