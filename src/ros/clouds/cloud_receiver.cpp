@@ -79,12 +79,25 @@ void CloudReceiver::receive(const topic_tools::ShapeShifter::ConstPtr& message) 
 
 // roscpp connects to publishers of the first one's type alone, until nobody subscribes.
 void CloudReceiver::subscribe() {
+  has_other_type_ = false;
+  subscribed_ = Clock::now();
   subscriber_.shutdown();
   subscriber_ = node_.subscribe<topic_tools::ShapeShifter>(
       settings_->topic, kCloudQueueLength,
       [this](const topic_tools::ShapeShifter::ConstPtr& message) { receive(message); }, ros::VoidConstPtr(),
       ros::TransportHints().tcpNoDelay());
-  subscribed_ = Clock::now();
+}
+
+// A publisher of another type may go before its next message, or be one of several.
+void CloudReceiver::waitForMessage(std::unique_lock<std::mutex>& lock) {
+  const auto has_come = [&] { return is_ending_ || newest_.message; };
+  const Clock::time_point again = subscribed_ + kSubscribeAgain;
+  if (has_other_type_ && (Clock::now() >= again || !arrived_.wait_until(lock, again, has_come))) {
+    lock.unlock();
+    guarded("A cloud", [&] { subscribe(); });
+    lock.lock();
+  }
+  arrived_.wait(lock, has_come);
 }
 
 void CloudReceiver::work() {
@@ -95,7 +108,7 @@ void CloudReceiver::work() {
   Clock::time_point due = Clock::now();
   std::unique_lock<std::mutex> lock(mutex_);
   for (;;) {
-    arrived_.wait(lock, [&] { return is_ending_ || newest_.message; });
+    waitForMessage(lock);
     while (!is_ending_ && Clock::now() < due) arrived_.wait_until(lock, due);
     if (is_ending_) return;
     const Arrival arrival = std::exchange(newest_, {});
@@ -108,7 +121,7 @@ void CloudReceiver::work() {
 
 void CloudReceiver::use(const Arrival& arrival) {
   std::string problem;
-  bool is_other_type = false;
+  has_other_type_ = false;
   try {
     const CloudReading reading = readCloud(*arrival.message, *settings_);
     const ros::Time stamp = reading.stamp.isZero() ? ros::Time::now() : reading.stamp;
@@ -146,13 +159,12 @@ void CloudReceiver::use(const Arrival& arrival) {
     return;
   } catch (const OtherType& error) {
     problem = error.what();
-    is_other_type = true;
+    has_other_type_ = true;
   } catch (const Error& error) {
     problem = error.what();
   } catch (const std::bad_alloc&) {
     problem = "there is not enough memory for this cloud (thin it, or use larger voxels)";
   }
-  if (is_other_type && Clock::now() - subscribed_ > kSubscribeAgain) subscribe();
   const std::lock_guard<std::mutex> lock(mutex_);
   ++report_.refused;
   ++report_.refused_lately;

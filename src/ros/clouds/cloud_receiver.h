@@ -47,6 +47,7 @@ class CloudReceiver {
 
   void receive(const topic_tools::ShapeShifter::ConstPtr& message);
   void subscribe();
+  void waitForMessage(std::unique_lock<std::mutex>& lock);
   void work();
   void use(const Arrival& arrival);
   void serve(const SceneBody& body, const CloudVoxels& made, ros::Time stamp);
@@ -66,7 +67,9 @@ class CloudReceiver {
   CloudReport report_;
   LogThrottle throttle_;
 
-  Clock::time_point subscribed_;  ///< this and the subscriber: of the thread alone
+  // Of the thread alone:
+  bool has_other_type_ = false;  ///< the newest message
+  Clock::time_point subscribed_;
   ros::Subscriber subscriber_;
   std::thread thread_;  ///< last member: it begins when the others are there
 };
