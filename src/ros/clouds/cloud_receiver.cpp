@@ -79,7 +79,6 @@ void CloudReceiver::receive(const topic_tools::ShapeShifter::ConstPtr& message) 
 
 // roscpp connects to publishers of the first one's type alone, until nobody subscribes.
 void CloudReceiver::subscribe() {
-  has_other_type_ = false;
   subscribed_ = Clock::now();
   subscriber_.shutdown();
   subscriber_ = node_.subscribe<topic_tools::ShapeShifter>(
@@ -88,11 +87,12 @@ void CloudReceiver::subscribe() {
       ros::TransportHints().tcpNoDelay());
 }
 
-// A publisher of another type may go before its next message, or be one of several.
+// After another type anew until a known one comes: a publisher that only connects fixes the type too.
 void CloudReceiver::waitForMessage(std::unique_lock<std::mutex>& lock) {
   const auto has_come = [&] { return is_ending_ || newest_.message; };
-  const Clock::time_point again = subscribed_ + kSubscribeAgain;
-  if (has_other_type_ && (Clock::now() >= again || !arrived_.wait_until(lock, again, has_come))) {
+  while (has_other_type_ && !is_ending_) {
+    const Clock::time_point again = subscribed_ + kSubscribeAgain;
+    if (Clock::now() < again && arrived_.wait_until(lock, again, has_come)) return;
     lock.unlock();
     guarded("A cloud", [&] { subscribe(); });
     lock.lock();
