@@ -3,7 +3,6 @@
 #include <ros/console.h>
 
 #include <algorithm>
-#include <cmath>
 #include <exception>
 #include <new>
 #include <utility>
@@ -13,6 +12,7 @@
 #include "base/short_text.h"
 #include "concave_distance/base/error.h"
 #include "ros/callback_guard.h"
+#include "ros/seconds_text.h"
 #include "scene/cloud_bodies.h"
 
 namespace concave_distance {
@@ -26,7 +26,7 @@ struct Gone {};
 
 std::string tooLate(double seconds, const CloudSettings& settings) {
   TextStream text;
-  text << "its body was made " << std::round(1e3 * seconds) / 1e3 << " s after the message, stale_after is "
+  text << "its body was made " << secondsText(seconds) << " s after the message, stale_after is "
        << settings.stale_after
        << " s: its pairs have no distance (use larger voxels, a shorter range or a longer stale_after)";
   return text.str();

@@ -1,6 +1,7 @@
 #include "guard_words.h"
 
 #include "base/number_text.h"
+#include "ros/seconds_text.h"
 
 namespace concave_distance {
 namespace {
@@ -76,8 +77,8 @@ std::string wordsFor(const GuardDecision& decision, const Constraints* message, 
     case GuardReason::NoRows:
       return fault.empty() ? "no rows have come yet; check ~constraints_topic and the distance node" : fault;
     case GuardReason::Stale:
-      text << "the transforms of the rows are " << age << " s old; ~stale_after is " << settings.stale_after
-           << " s; check the distance node and tf";
+      text << "the transforms of the rows are " << secondsText(age) << " s old; ~stale_after is "
+           << settings.stale_after << " s; check the distance node and tf";
       return text.str();
     case GuardReason::ClockBack:
       return "the clock jumped back; the next rows begin anew";

@@ -5,23 +5,11 @@
 #include <unordered_map>
 #include <utility>
 
-#include "base/number_text.h"
 #include "ros/tf/cloud_age.h"
+#include "ros/tf/tf_poses.h"
 #include "ros/time_difference.h"
 
 namespace concave_distance {
-namespace {
-
-std::string describeAge(const TrackedPair& tracked, const std::string& reference_frame, double age,
-                        double stale_after) {
-  TextStream message;
-  message << "the newest transform between '" << tracked.body_a->frame << "', '" << tracked.body_b->frame
-          << "' and '" << reference_frame << "' is " << age << " s old; ~stale_after is " << stale_after
-          << " s";
-  return message.str();
-}
-
-}  // namespace
 
 DistanceCycle::DistanceCycle(const TransformBuffer& transforms, CycleOptions options)
     : transforms_(transforms),
@@ -170,10 +158,11 @@ void DistanceCycle::describe(PublishedPair& pair, ros::Time now) const {
   if (!tracked.input.located) {
     const FramePlace& stale = place_a.status == TransformStatus::Stale ? place_a : place_b;
     pair.status =
-        toStatus(TransformStatus::Stale, !stale.message.empty()
-                                             ? stale.message
-                                             : describeAge(tracked, options_.reference_frame,
-                                                           secondsBetween(stamp, now), options_.stale_after));
+        toStatus(TransformStatus::Stale,
+                 !stale.message.empty()
+                     ? stale.message
+                     : describeAge({options_.reference_frame, tracked.body_a->frame, tracked.body_b->frame},
+                                   secondsBetween(stamp, now), options_.stale_after));
     return;
   }
   pair.status = toStatus(TransformStatus::Ok, "");

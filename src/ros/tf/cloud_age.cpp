@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/number_text.h"
+#include "ros/seconds_text.h"
 #include "ros/time_difference.h"
 
 namespace concave_distance {
@@ -22,9 +23,9 @@ std::optional<FramePlace> whyUnusable(const std::string& name, const CloudState&
   TextStream message;
   message << "cloud '" << name << "' on '" << settings.topic << "' is ";
   if (age > 0.0) {
-    message << age << " s old";
+    message << secondsText(age) << " s old";
   } else {
-    message << -age << " s ahead of the clock";
+    message << secondsText(-age) << " s ahead of the clock";
   }
   message << "; its stale_after is " << settings.stale_after << " s";
   place.status = TransformStatus::Stale;

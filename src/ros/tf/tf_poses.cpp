@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/number_text.h"
+#include "ros/seconds_text.h"
 #include "ros/time_difference.h"
 
 namespace concave_distance {
@@ -143,6 +144,14 @@ std::string commonAncestor(const tf2::BufferCore& buffer, const std::string& fra
   return "";
 }
 
+std::string describeAge(const PairFrames& frames, double age, double stale_after) {
+  TextStream message;
+  message << "the newest transform between '" << frames.frame_a << "', '" << frames.frame_b << "' and '"
+          << frames.reference << "' is " << secondsText(age) << " s old; ~stale_after is " << stale_after
+          << " s";
+  return message.str();
+}
+
 PairTransforms lookUpPair(const tf2::BufferCore& buffer, const PairFrames& frames, ros::Time now,
                           double stale_after, PairAncestors& ancestors) {
   PairTransforms transforms = locate(buffer, frames, ros::Time(0), ancestors);
@@ -162,11 +171,8 @@ PairTransforms lookUpPair(const tf2::BufferCore& buffer, const PairFrames& frame
   }
   const double age = secondsBetween(transforms.stamp, now);
   if (age > stale_after) {
-    TextStream message;
-    message << "the newest transform between '" << frames.frame_a << "', '" << frames.frame_b << "' and '"
-            << frames.reference << "' is " << age << " s old; ~stale_after is " << stale_after << " s";
     transforms.status = TransformStatus::Stale;
-    transforms.message = message.str();
+    transforms.message = describeAge(frames, age, stale_after);
   }
   return transforms;
 }

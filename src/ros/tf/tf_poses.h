@@ -58,6 +58,9 @@ struct PairAncestors {
 std::string commonAncestor(const tf2::BufferCore& buffer, const std::string& frame_a,
                            const std::string& frame_b);
 
+/// Returns the message of a pair whose newest transforms are `age` seconds old.
+std::string describeAge(const PairFrames& frames, double age, double stale_after);
+
 /// All transforms of a pair at the newest time common to the two bodies' frames and the reference frame, each
 /// composed through a common ancestor. Stale when that time is older than `stale_after` seconds (static
 /// transforms never are). When it is ahead of `now`, the transforms at `now` are taken instead, if available.

@@ -1,9 +1,11 @@
 #include "ros/tf/tf_poses.h"
-#include "ros/transform_message.h"
 
 #include <gtest/gtest.h>
 
 #include <limits>
+
+#include "ros/seconds_text.h"
+#include "ros/transform_message.h"
 
 namespace concave_distance::tf_poses_test {
 namespace {
@@ -23,6 +25,12 @@ PairTransforms look(const tf2::BufferCore& buffer, const PairFrames& frames, ros
 
 ros::Time at(double seconds) {
   return kStart + ros::Duration(seconds);
+}
+
+TEST(SecondsText, HasMilliseconds) {
+  EXPECT_EQ(secondsText(3.0), "3");
+  EXPECT_EQ(secondsText(2.04812), "2.048");
+  EXPECT_EQ(secondsText(123456.7891), "123456.789");
 }
 
 TEST(TfPoses, TakeTheNewestTimeCommonToBothBodiesAndTheReference) {
