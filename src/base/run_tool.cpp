@@ -14,7 +14,7 @@ int runTool(const char* name, int argc, char** argv, int (*run)(int argc, char**
     finishStandardOutput();
     return status;
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "%s: %s\n", name, error.what());
+    std::fprintf(stderr, "%s: %s\n", name, shortText(error.what()).c_str());
     return kFileProblem;
   }
 }

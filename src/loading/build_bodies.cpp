@@ -89,6 +89,9 @@ void checkExtent(const SurfaceMesh& surface, const BodySource& source) {
   if (!(farthest <= kFarthestCoordinate)) {
     TextStream seen;
     seen << "it reaches " << farthest << " m from the origin of its frame";
+    for (const GeometryElement& element : source.geometry) {
+      if (!element.mesh_resource.empty()) seen << ", with " << element.mesh_resource;
+    }
     throw Error(source.source, seen.str(), "check its size, unit (scale) and pose; the limit is 1e9 m");
   }
 }

@@ -272,7 +272,7 @@ int run(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : kWrongCommandLine;
+    return reportParseError(app, error);
   }
   runClearanceQuery(options);
   return 0;

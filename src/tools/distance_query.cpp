@@ -259,7 +259,7 @@ int run(int argc, char** argv) {
       refuseOnUnprovenLevels(app, option, options.settings.tracker.accuracy);
     }
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : kWrongCommandLine;
+    return reportParseError(app, error);
   }
   if (!options.replay.empty())
     return replayRecord(options.replay, options.output, options.niches_output, std::cout);

@@ -223,7 +223,7 @@ int run(int argc, char** argv) {
     app.parse(argc, argv);
     line.options.scale = parseScale(line.scale);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : kWrongCommandLine;
+    return reportParseError(app, error);
   }
   requireDistinctFiles({{"the input", line.options.input}}, {{"the output", line.options.output}});
   for (const auto& [command, act] : commands) {

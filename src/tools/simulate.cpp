@@ -197,7 +197,7 @@ int run(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : concave_distance::kWrongCommandLine;
+    return concave_distance::reportParseError(app, error);
   }
   return simulate(app, options);
 }

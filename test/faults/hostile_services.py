@@ -21,7 +21,6 @@ for key, text in NAMES.items():
     refuse("remove_body_" + key, "remove_body", ("body", "name"), name=text)
     if key not in ("empty", "pattern"):
         refuse("reset_tracking_" + key, "reset_tracking", ("pair",), pair=text)
-    if key != "empty":
         refuse("set_pair_enabled_" + key, "set_pair_enabled", ("pair",), pair=text, enabled=True)
 refuse("set_pair_enabled_without_a_name", "set_pair_enabled", ("body", "pair"), fast=True)
 refuse("set_pair_enabled_of_one_body", "set_pair_enabled", ("body",), body_a="box_a", enabled=True)

@@ -38,7 +38,7 @@ for tool in ("clearance_query", "distance_query", "mesh_tool", "simulate"):
     refuse(tool + "_without_arguments", (tool,), fast=True)
     refuse(tool + "_unknown_option", (tool, "--frobnicate"))
     refuse(tool + "_empty_arguments", (tool, "", "", ""))
-    refuse(tool + "_argument_of_100_kb", (tool, "x" * 100000))
+    refuse(tool + "_argument_of_100_kb", (tool, "x" * 100000), fast=True)
 OPTIONS = {"accuracy": ("perfect", ""), "cutoff": ("-1", "nan", "far"), "tolerance": ("-1", "nan"),
            "relative-tolerance": ("2", "nan"), "time-budget": ("-1", "nan"), "max-edge": ("0", "-1", "nan", "1e-9"),
            "least-prominence": ("-1", "nan"), "scale-a": ("0", "nan", "inf", "1e300"), "scale-b": ("0", "1e-300"),

@@ -224,7 +224,7 @@ int run(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : kWrongCommandLine;
+    return reportParseError(app, error);
   }
   checkBagOptions(app, options);
   endOnInterrupt();

@@ -52,7 +52,7 @@ int run(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : concave_distance::kWrongCommandLine;
+    return concave_distance::reportParseError(app, error);
   }
   concave_distance::requireDistinctFiles({{"the input", options.input}},
                                          {{"the output", options.output}, {"--pieces", options.pieces}});
