@@ -187,25 +187,46 @@ def with_meshes_found(path):
     return re.sub(r'filename="([^"]*)"', found, text_of(path))
 
 
-def waits_for_a_robot(arena, file):
-    """Without a robot the node goes on and says what it waits for."""
+def waits_for(arena, file, words):
+    """Without what it follows the node goes on and says what it waits for."""
     arena.set_parameter("/use_sim_time", False)
     with Launched(arena, file) as launched:
         deadline = time.monotonic() + 40.0 * arena.patience
-        while "robot_description" not in launched.log().partition("NODES")[2]:
+        while words not in launched.log().partition("NODES")[2]:
             launched.require_up()
             expect(time.monotonic() < deadline, "it does not say what it waits for")
             time.sleep(0.1)
         launched.require_up()
 
 
+def refuses(arena, file, text, words):
+    """A scene that is made for one robot says which name another has not."""
+    arena.set_parameter("/robot_description", text)
+    with Launched(arena, file) as launched:
+        deadline = time.monotonic() + 40.0 * arena.patience
+        while words not in launched.log():
+            expect(time.monotonic() < deadline, "it does not say what is not known: " + shortened(launched.log()[-300:]))
+            time.sleep(0.1)
+
+
+# They follow a publisher and serve no robot themselves.
+for launch_file in ("cob_bridge.launch", "moveit_bridge.launch"):
+    WITHOUT_A_SCENE.remove(launch_file)
+    group.add(launch_file + "_alone", lambda arena, file=launch_file: waits_for(arena, file, "; waiting"), deadline=60.0)
+# The groups of its scene name links of the demo's robot.
+WITHOUT_A_SCENE.remove("groups_on_machines.launch")
+group.add("groups_on_machines.launch_with_the_kr5", lambda arena: refuses(
+    arena, "groups_on_machines.launch", text_of(os.path.join(REPOSITORY, "urdf/kr5.urdf")),
+    "'wam1' is not a body, link or group"), deadline=60.0)
+group.add("groups_on_machines.launch_without_a_robot", lambda arena: waits_for(
+    arena, "groups_on_machines.launch", "robot_description"), deadline=60.0)
 for launch_file in WITHOUT_A_SCENE:
     group.add(launch_file + "_with_a_robot", lambda arena, file=launch_file: robot(
         arena, file, text_of(os.path.join(REPOSITORY, "test/ros/rostest/two_links.urdf")), True), deadline=120.0)
     group.add(launch_file + "_with_the_kr5", lambda arena, file=launch_file: robot(
         arena, file, text_of(os.path.join(REPOSITORY, "urdf/kr5.urdf")), True), deadline=120.0)
-    group.add(launch_file + "_without_a_robot", lambda arena, file=launch_file: waits_for_a_robot(arena, file),
-              deadline=60.0)
+    group.add(launch_file + "_without_a_robot", lambda arena, file=launch_file: waits_for(
+        arena, file, "robot_description"), deadline=60.0)
 
 
 for path in sorted(glob.glob(ROBOTS + "/**/*.urdf", recursive=True)):
