@@ -88,11 +88,11 @@ def demo(arena, file, leftover):
         launched.require_up()
 
 
+OWN_SCENE = ('scene_file" value="$(find', 'arg name="scene"', "/launch/cell.launch")
 WITHOUT_A_SCENE = []
 for path in sorted(glob.glob(os.path.join(REPOSITORY, "launch", "*.launch"))):
     launch_file = os.path.basename(path)
-    own_scene = "scene_file\" value=\"$(find" in open(path).read() or "arg name=\"scene\"" in open(path).read()
-    if own_scene:
+    if any(sign in text_of(path) for sign in OWN_SCENE):
         group.add(launch_file, lambda arena, file=launch_file: demo(arena, file, False), deadline=120.0)
         group.add(launch_file + "_after_a_simulation", lambda arena, file=launch_file: demo(arena, file, True), deadline=120.0)
     else:
