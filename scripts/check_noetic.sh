@@ -53,6 +53,26 @@ from_debian() {
   for package in "$lists"/*.deb; do dpkg -x "$package" "$root"; done
 }
 
+# What Debian's static RapidCheck calls of newer standard libraries than that of GCC 9.
+write_newer_functions() {
+  cat >"$root/newer_functions.cpp" <<'SOURCE'
+#include <exception>
+#include <new>
+
+namespace std {
+void __throw_bad_array_new_length() { throw bad_array_new_length(); }
+namespace __exception_ptr {
+void exception_ptr::_M_addref() noexcept {
+  alignas(exception_ptr) unsigned char never_destroyed[sizeof(exception_ptr)];
+  new (never_destroyed) exception_ptr(*this);
+}
+void exception_ptr::_M_release() noexcept { exception_ptr().swap(*this); }
+}  // namespace __exception_ptr
+}  // namespace std
+SOURCE
+  inside g++ -c -fPIC /newer_functions.cpp -o /newer_functions.o
+}
+
 install_packages() {
   local wanted=() package
   while read -r package; do
@@ -82,7 +102,8 @@ mount --bind "$package_dir" "$root/source"
 mount -o remount,bind,ro "$root/source"
 options=(-DCONCAVE_DISTANCE_WITH_ROS=ON -DCONCAVE_DISTANCE_WITH_THESIS=ON -DCONCAVE_DISTANCE_WITH_PYTHON=ON
   -DCONCAVE_DISTANCE_BUILD_BENCHMARKS=OFF -DCONCAVE_DISTANCE_FAST_BUILD=ON
-  -DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
+  -DCMAKE_CXX_COMPILER_LAUNCHER=ccache -DCMAKE_EXE_LINKER_FLAGS=/newer_functions.o)
+write_newer_functions
 inside cmake -S /source -B /build -G Ninja "${options[@]}"
 inside ninja -C /build -k 0 "$@" concave_distance_programs
 say "the programs compile"
