@@ -248,8 +248,9 @@ def grid(count, shift=0.0):
                   for index in range(count)))
 
 
-@group.attack(deadline=300.0, growth_mb=600.0, silence=30.0, storms=False)
+@group.attack(deadline=300.0, growth_mb=1600.0, silence=30.0, storms=False)
 def two_thousand_objects(arena):
+    """Once moved they are watched against each other, too: as many pairs as the node's limit, in one long cycle."""
     watched = bridge(arena)
     require_served(arena)
     publish(arena, grid(2000))
@@ -259,6 +260,7 @@ def two_thousand_objects(arena):
     watched.until(lambda: "moveit/last" in bodies(arena), 120.0, "the last is not served")
     publish(arena, make("PlanningScene", is_diff=False))
     watched.until(lambda: bodies(arena) == [], 120.0, "they stay")
+    arena.require_tracking(60.0)
     require_served(arena)
 
 
