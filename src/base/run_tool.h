@@ -1,8 +1,8 @@
 #pragma once
 
 #include <iostream>
-#include <sstream>
 
+#include "base/number_text.h"
 #include "base/short_text.h"
 
 namespace concave_distance {
@@ -18,7 +18,7 @@ inline constexpr int kWrongCommandLine = 2;
 /// @return the tool's status
 template <typename App, typename ParseError>
 int reportParseError(const App& app, const ParseError& error) {
-  std::ostringstream problem;
+  TextStream problem;
   const bool is_fault = app.exit(error, std::cout, problem) != 0;
   std::cerr << shortText(problem.str());
   return is_fault ? kWrongCommandLine : 0;

@@ -67,7 +67,7 @@ class CloudReceiver {
   CloudReport report_;
   LogThrottle throttle_;
 
-  // Of the thread alone:
+  // The thread alone uses these:
   bool has_other_type_ = false;  ///< the newest message
   Clock::time_point subscribed_;
   ros::Subscriber subscriber_;
