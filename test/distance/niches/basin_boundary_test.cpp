@@ -17,7 +17,7 @@ using Eigen::Vector3d;
 using test::makeBody;
 using Body = std::shared_ptr<const BodyMesh>;
 
-// What is left of a boundary has its distance, and what leaves it has not, after any motion.
+// After any motion the rest of a boundary keeps its distance, and what has left it does not.
 TEST(BasinBoundary, LosesExactlyWhatComesNearerThanTheLevel) {
   RandomEngine engine(23);
   std::size_t lost = 0;

@@ -1,4 +1,4 @@
-// What is drawn of many pairs, how its numbers are written, and what the picture is of.
+// Rules of the picture: which of many pairs are drawn, how numbers are written, which region is shown.
 #include <gtest/gtest.h>
 
 #include "ros/markers/marker_layout.h"
