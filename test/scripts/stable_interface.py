@@ -22,6 +22,7 @@ from public_names import public_names  # noqa: E402
 
 LIST = os.path.join(PACKAGE, "test", "scripts", "stable_interface.txt")
 TOOLS = ["clearance_query", "distance_bag", "distance_query", "mesh_tool", "simulate"]
+WITH_ROS = "distance_bag"  # a build without ROS has not this one
 TABLES = ["parameters.md", "scene_file.md", "simulation_node.md", "velocity_guard.md"]
 
 
@@ -113,9 +114,13 @@ def signature(function):
     return "%s(%s)" % (function.name, ",".join(names))
 
 
+def tools_in(programs):
+    return [tool for tool in TOOLS if tool != WITH_ROS or os.path.exists(os.path.join(programs, tool))]
+
+
 def options(programs):
     """What --help lists, and the columns of the tools' files."""
-    for tool in TOOLS:
+    for tool in tools_in(programs):
         program = os.path.join(programs, tool)
         texts = [help_of(program)]
         if tool == "mesh_tool":
@@ -184,7 +189,7 @@ def version_faults(programs):
     newest = re.search(r"^(Forthcoming|[0-9.]+ \(.*\))\n-+$", text_of("CHANGELOG.rst"), re.MULTILINE).group(1)
     if newest != "Forthcoming" and newest.split()[0] != version:
         yield "package.xml says version %s, the newest section of CHANGELOG.rst %s" % (version, newest)
-    for tool in TOOLS:
+    for tool in tools_in(programs):
         run = subprocess.run([os.path.join(programs, tool), "--version"], stdout=subprocess.PIPE, check=True)
         if run.stdout.decode("utf-8").splitlines()[0] != "concave_distance " + version:
             yield "%s --version says %r, package.xml %s" % (tool, run.stdout, version)
@@ -200,6 +205,9 @@ def main():
     parser.add_argument("--write", action="store_true")
     arguments = parser.parse_args()
     now = interface(arguments.programs)
+    has_all = tools_in(arguments.programs) == TOOLS
+    if arguments.write and not has_all:
+        parser.error("there is no %s: build with ROS" % WITH_ROS)
     if arguments.write:
         with open(LIST, "w", encoding="utf-8") as stream:
             stream.write(written(now))
@@ -207,6 +215,8 @@ def main():
     before = promised()
     if not any(kind == "message" for kind, _ in now):
         before = {key: names for key, names in before.items() if key[0] not in ("message", "service")}
+    if not has_all:
+        before = {key: names for key, names in before.items() if key[1] != WITH_ROS}
     gone, new = differences(before, now)
     faults = list(version_faults(arguments.programs))
     for fault in faults:
