@@ -9,6 +9,7 @@
 
 #include "base/content_hash.h"
 #include "base/number_text.h"
+#include "base/short_text.h"
 #include "concave_distance/base/error.h"
 #include "concave_distance/search/prepare_search.h"
 #include "mesh/body_key.h"
@@ -92,7 +93,8 @@ void checkExtent(const SurfaceMesh& surface, const BodySource& source) {
     for (const GeometryElement& element : source.geometry) {
       if (!element.mesh_resource.empty()) seen << ", with " << element.mesh_resource;
     }
-    throw Error(source.source, seen.str(), "check its size, unit (scale) and pose; the limit is 1e9 m");
+    throw Error(source.source, shortText(seen.str()),
+                "check its size, unit (scale) and pose; the limit is 1e9 m");
   }
 }
 
