@@ -2,20 +2,29 @@
 """Compares the answers of two builds byte by byte, times aside.
 
     scripts/compare_answers.py BEFORE AFTER [--folder compare_answers] [--steps 40] [--skip evaluate]
+                               [--except origin,niche] [--recall 8]
 
 BEFORE and AFTER are build folders; AFTER has the benchmarks, whose pairs are asked about: distance_query at every
 level, cold and tracked, with niches and without, simulate on every scene of config/ with a section `simulation`, and
-evaluate on every experiment in the size quick. Prints what differs; the exit status is 0 when nothing does.
+evaluate on every experiment in the size quick. Prints what differs; the exit status is 0 when nothing does. Columns
+named by --except are not compared. With --recall N, levels that prove nothing are not compared but judged, for N
+seeds: a niche counts as found where both its points are within 5 % (`nodes`) or 1e-6 (`refined`) of the smaller
+body's diameter; `recall` is the share of the certified niches that are found, `precision` the share of the reported
+ones that are certified, each a mean over the poses of all pairs and, behind +-, its deviation over the seeds.
 """
 import argparse
 import csv
 import itertools
+import math
 import os
+import re
+import statistics
 import subprocess
 import sys
 from concurrent.futures import ThreadPoolExecutor
 
 LEVELS = ("nodes", "refined", "certified")
+UNPROVEN = {"nodes": 0.05, "refined": 1e-6}  # level: how far points may be apart, in diameters of the smaller body
 TIMES = {"time_us", "microseconds"}
 
 
@@ -38,13 +47,14 @@ def package_of(build):
 
 def run(command):
     build = command[0].split(os.sep + "devel" + os.sep)[0]
-    environment = dict(os.environ, ROS_PACKAGE_PATH=package_of(build))
+    # Older builds keep prepared bodies in the user's cache.
+    environment = dict(os.environ, ROS_PACKAGE_PATH=package_of(build), XDG_CACHE_HOME=os.path.join(build, "compared"))
     done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, env=environment)
     return done.returncode, done.stdout
 
 
-def without_times(path, in_any_order):
-    """The cells of a CSV file but for times; the text of any other file. Runs of an experiment are written in the order
+def compared_cells(path, left_out, in_any_order):
+    """The cells of a CSV file but for columns that are left out; the text of any other file. Runs of an experiment are written in the order
     in which threads finish them: there the order does not count."""
     with open(path, newline="") as stream:
         if not path.endswith(".csv"):
@@ -52,20 +62,22 @@ def without_times(path, in_any_order):
         rows = list(csv.reader(stream))
     if not rows:
         return rows
-    kept = [place for place, name in enumerate(rows[0]) if name not in TIMES]
+    kept = [place for place, name in enumerate(rows[0]) if name not in left_out]
     cells = [[row[place] for place in kept if place < len(row)] for row in rows]
     return cells[:1] + sorted(cells[1:]) if in_any_order else cells
 
 
-def compare_folders(before, after, in_any_order=False):
+def compare_folders(before, after, left_out, judged, in_any_order=False):
     """Names of files that differ or are missing on one side, each with the first difference."""
     differences = []
     for name in sorted(set(os.listdir(before)) | set(os.listdir(after))):
+        if any("_" + level in name for level in judged):
+            continue
         paths = [os.path.join(folder, name) for folder in (before, after)]
         if not all(os.path.exists(path) for path in paths):
             differences.append("%s: only one build wrote it" % name)
             continue
-        left, right = (without_times(path, in_any_order) for path in paths)
+        left, right = (compared_cells(path, left_out, in_any_order) for path in paths)
         if left == right:
             continue
         first = next((place for place, (l, r) in enumerate(zip(left, right)) if l != r), min(len(left), len(right)))
@@ -73,18 +85,88 @@ def compare_folders(before, after, in_any_order=False):
     return differences
 
 
+def pair_names(scenes):
+    return sorted(name[:-len(".csv")] for name in os.listdir(scenes) if name.endswith(".csv"))
+
+
+def query(scenes, name, level, tracked, stem, niches, build):
+    command = [program(build, "distance_query"), "--mesh-a", os.path.join(scenes, name + "_a.stl"),
+               "--mesh-b", os.path.join(scenes, name + "_b.stl"), "--poses", os.path.join(scenes, name + ".csv"),
+               "--accuracy", level, "--output", stem + ".csv"]
+    return command + ["--tracking"] * tracked + ["--niches-output", stem + "_list.csv"] * niches
+
+
 def queries(scenes, folder, build):
-    names = sorted(name[:-len(".csv")] for name in os.listdir(scenes) if name.endswith(".csv"))
-    for name, level, tracked, niches in itertools.product(names, LEVELS, (False, True), (False, True)):
+    for name, level, tracked, niches in itertools.product(pair_names(scenes), LEVELS, (False, True), (False, True)):
         stem = os.path.join(folder, "%s_%s%s%s" % (name, level, "_tracked" * tracked, "_niches" * niches))
-        command = [program(build, "distance_query"), "--mesh-a", os.path.join(scenes, name + "_a.stl"),
-                   "--mesh-b", os.path.join(scenes, name + "_b.stl"), "--poses", os.path.join(scenes, name + ".csv"),
-                   "--accuracy", level, "--cache", "off", "--output", stem + ".csv"]
-        if tracked:
-            command.append("--tracking")
-        if niches:
-            command += ["--niches-output", stem + "_list.csv"]
-        yield command
+        yield query(scenes, name, level, tracked, stem, niches, build)
+
+
+def lists_of(path):
+    """Of each pose, its niches' points, six coordinates each."""
+    lists = {}
+    with open(path, newline="") as stream:
+        for row in csv.DictReader(stream):
+            lists.setdefault(row["index"], []).append([float(row[name]) for name in ("ax", "ay", "az", "bx", "by", "bz")])
+    return lists
+
+
+def is_found(niche, niches, tolerance):
+    return any(math.dist(niche[:3], other[:3]) <= tolerance and math.dist(niche[3:], other[3:]) <= tolerance
+               for other in niches)
+
+
+def recall_and_precision(path, truth_path, tolerance):
+    """Sums over the poses that have niches: (found shares of the truth, poses, right shares of the list, poses)."""
+    found, truth = lists_of(path), lists_of(truth_path)
+    recalls = [sum(is_found(niche, found.get(pose, []), tolerance) for niche in niches) / len(niches)
+               for pose, niches in truth.items()]
+    precisions = [sum(is_found(niche, truth.get(pose, []), tolerance) for niche in niches) / len(niches)
+                  for pose, niches in found.items()]
+    return recalls, precisions
+
+
+def smaller_diameters(scenes, names, build):
+    """Diagonal of the smaller body's box, of each pair."""
+    diameters = {}
+    for name in names:
+        diagonals = []
+        for side in "ab":
+            status, output = run([program(build, "mesh_tool"), "inspect", os.path.join(scenes, "%s_%s.stl" % (name, side))])
+            size = re.search(r"^size \(m\): (.*)$", output, re.MULTILINE)
+            if status != 0 or not size:
+                sys.exit("mesh_tool inspect: " + output)
+            diagonals.append(math.hypot(*map(float, size.group(1).split())))
+        diameters[name] = min(diagonals)
+    return diameters
+
+
+def judge(scenes, folder, builds, seeds, jobs):
+    """Prints recall and precision of the levels that prove nothing, of each build, with the noise of seeds."""
+    names = pair_names(scenes)
+    diameters = smaller_diameters(scenes, names, builds["after"])
+    for (side, build), level, tracked in itertools.product(builds.items(), UNPROVEN, (False, True)):
+        kept = os.path.join(folder, side, "seeds")
+        os.makedirs(kept, exist_ok=True)
+        means = []
+        for seed in range(1, seeds + 1):
+            todo, lists = [], []
+            for name in names:
+                stem = os.path.join(kept, "%s_%s%s_%d" % (name, level, "_tracked" * tracked, seed))
+                todo.append(query(scenes, name, level, tracked, stem, True, build) + ["--seed", str(seed)])
+                truth = os.path.join(folder, side, "distance_query", "%s_certified_niches_list.csv" % name)
+                lists.append((stem + "_list.csv", truth, UNPROVEN[level] * diameters[name]))
+            with ThreadPoolExecutor(jobs) as pool:
+                failed = [output for status, output in pool.map(run, todo) if status != 0]
+            if failed:
+                sys.exit(failed[0])
+            shares = [recall_and_precision(*paths) for paths in lists]
+            means.append([statistics.mean(statistics.mean(pair[part]) for pair in shares if pair[part])
+                          for part in (0, 1)])
+        recalls, precisions = zip(*means)
+        print("%-6s %-8s %-7s recall %.4f +- %.4f, precision %.4f +- %.4f" % (
+            side, level, "tracked" if tracked else "cold", statistics.mean(recalls), statistics.pstdev(recalls),
+            statistics.mean(precisions), statistics.pstdev(precisions)), flush=True)
 
 
 def simulations(folder, build):
@@ -94,7 +176,7 @@ def simulations(folder, build):
         if not name.endswith(".yaml") or "\nsimulation:" not in "\n" + open(path).read():
             continue
         stem = os.path.join(folder, "simulate_" + name[:-len(".yaml")])
-        yield [program(build, "simulate"), path, "--cache", "off", "--output", stem + ".csv", "--contacts",
+        yield [program(build, "simulate"), path, "--output", stem + ".csv", "--contacts",
                stem + "_contacts.csv", "--niches", stem + "_niches.csv"]
 
 
@@ -114,7 +196,11 @@ def main():
     parser.add_argument("--steps", type=int, default=40, help="poses of each pair")
     parser.add_argument("--skip", nargs="*", default=[], choices=["distance_query", "simulate", "evaluate"])
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
+    parser.add_argument("--except", dest="left_out", default="", help="names of columns, separated by commas")
+    parser.add_argument("--recall", type=int, default=0, help="seeds")
     options = parser.parse_args()
+    left_out = TIMES | set(options.left_out.split(","))
+    judged = UNPROVEN if options.recall else {}
     scenes = os.path.join(options.folder, "scenes")
     status, output = run([program(options.after, "write_benchmark_scenes"), "--all-meshes", "--steps",
                           str(options.steps), "--output", scenes])
@@ -137,11 +223,13 @@ def main():
                         differences.append("%s (%s): exit status %d: %s" % (kind, side, status, output.strip()[-300:]))
         if kind == "evaluate":
             folders = [os.path.join(folder, "evaluate") for folder in folders]
-        found = compare_folders(*folders, in_any_order=kind == "evaluate")
+        found = compare_folders(*folders, left_out, judged, in_any_order=kind == "evaluate")
         print("%s: %d files, %d differ" % (kind, len(os.listdir(folders[0])), len(found)), flush=True)
         differences += found
     for difference in differences:
         print("  " + difference)
+    if options.recall:
+        judge(scenes, options.folder, {"before": options.before, "after": options.after}, options.recall, options.jobs)
     return 1 if differences else 0
 
 
