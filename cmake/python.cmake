@@ -5,7 +5,10 @@ set(pybind11_FOUND FALSE)
 if(Python3_Development_FOUND)
   find_package(pybind11 2.6 CONFIG QUIET)
 endif()
-option(CONCAVE_DISTANCE_WITH_PYTHON "Build the Python package concave_distance" ${pybind11_FOUND})
+# Not an option(), which would keep OFF from a configuration before pybind11 was installed (scripts/demo.sh).
+if(NOT DEFINED CONCAVE_DISTANCE_WITH_PYTHON)
+  set(CONCAVE_DISTANCE_WITH_PYTHON ${pybind11_FOUND})
+endif()
 if(CONCAVE_DISTANCE_WITH_PYTHON AND NOT pybind11_FOUND)
   message(FATAL_ERROR "CONCAVE_DISTANCE_WITH_PYTHON is ON, but Python's headers or pybind11 2.6 were not found "
     "(python3-dev, pybind11-dev: scripts/install_dependencies.sh build; or `pip install pybind11` and "

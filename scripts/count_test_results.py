@@ -3,7 +3,7 @@
 
 A case is one test of a GoogleTest program (alone or inside a rostest), or one whole ctest test that writes no
 results, such as the consumer package. A program that crashed, timed out, was not built, wrote no results or ran no
-test is one failed case; so is a run without any test.
+test is one failed case; so is a run without any test, and a Python program that skipped some of its cases.
 """
 
 import argparse
@@ -118,14 +118,27 @@ def names_in(failed_logs):
     return names
 
 
+def skipped_in(output_logs):
+    """Names of the tests in which Python's unittest skipped cases, which is a success to ctest."""
+    names = []
+    for log in output_logs:
+        with open(log, errors="replace") as lines:
+            for part in re.split(r"^\d+/\d+ Testing: ", lines.read(), flags=re.MULTILINE)[1:]:
+                if re.search(r"^OK \(.*skipped=\d", part, flags=re.MULTILINE):
+                    names.append(part.split("\n", 1)[0])
+    return names
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("build_dir")
     parser.add_argument("--failed-log", action="append", default=[], help="a copy of ctest's LastTestsFailed.log")
+    parser.add_argument("--output-log", action="append", default=[], help="a copy of ctest's LastTest.log")
     parser.add_argument("--failure", action="append", default=[], help="a failed case that is none of ctest's")
     parser.add_argument("--success", action="append", default=[], help="a passed case that is none of ctest's")
     arguments = parser.parse_args()
-    count = count_results(tests_of(arguments.build_dir), names_in(arguments.failed_log))
+    failed = names_in(arguments.failed_log) | set(skipped_in(arguments.output_log))
+    count = count_results(tests_of(arguments.build_dir), failed)
     count.add(arguments.failure, len(arguments.failure))
     count.add([], len(arguments.success))
     for failure in count.failures:

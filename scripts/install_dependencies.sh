@@ -28,7 +28,7 @@ set -euo pipefail
   debian_test=(
     libgtest-dev librapidcheck-dev libfcl-dev libboost-dev libbenchmark-dev
     librostest-dev python3-rostest libnodeletlib-tools
-    dart-doc  # robots that are broken on purpose
+    dart-doc  # robots of scripts/faults.sh
     git locales  # the record of results; a locale with decimal commas
     python3-yaml  # digests of experiments in the test `results`
     python3-rosmaster python3-rospy python3-tf2-msgs python3-rosgraph-msgs python3-dynamic-reconfigure  # scripts/faults.sh
@@ -47,7 +47,7 @@ set -euo pipefail
   )
   debian_plot=(python3-matplotlib python3-yaml valgrind)
   debian_format=(clang-format)
-  debian_lint=(clang-format clang-tidy catkin-lint)
+  debian_lint=(clang-format clang-tidy catkin-lint shellcheck)
   debian_doxygen=(doxygen)
   debian_fuzz=(clang libclang-rt-14-dev)  # libFuzzer is in the second
   debian_sanitize=(dpkg-dev)  # unpacks the source package of TBB
@@ -76,7 +76,7 @@ set -euo pipefail
   )
   noetic_plot=(python3-matplotlib python3-yaml valgrind)
   noetic_format=(clang-format)
-  noetic_lint=(clang-format clang-tidy)
+  noetic_lint=(clang-format clang-tidy shellcheck)
   noetic_doxygen=(doxygen)
   noetic_fuzz=(clang)
   noetic_sanitize=(dpkg-dev)

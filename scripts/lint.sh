@@ -3,7 +3,7 @@
 #   scripts/lint.sh [format] [comments] [tidy] [catkin] [shell]     (default: all of them)
 # format: clang-format on every source file. tidy: clang-tidy over the whole package (many minutes).
 # comments: comments of headers that begin in the middle of a sentence. catkin: catkin_lint with all notices.
-# shell: shellcheck on the scripts, where it is installed.
+# shell: shellcheck on the scripts.
 set -euo pipefail
 # shellcheck source=scripts/common.sh
 . "$(dirname "${BASH_SOURCE[0]}")/common.sh"
@@ -39,10 +39,6 @@ check_catkin() {
   catkin_lint -W2 --strict --offline --ignore package_path_name .  # a clone may have any name
 }
 check_shell() {
-  if ! command -v shellcheck >/dev/null; then
-    say "shellcheck is not installed: the scripts are not checked"
-    return
-  fi
   shellcheck -x scripts/*.sh .ci/run
 }
 

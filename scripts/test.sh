@@ -1,15 +1,19 @@
 #!/usr/bin/env bash
-# Installs what is missing, builds everything and runs every test: unit tests, consumer package, rostests.
+# Installs what is missing, builds everything and runs every test: unit tests, consumer package, rostests. The example
+# with Simbody is one where Simbody is installed (scripts/install_dependencies.sh engines).
 #   scripts/test.sh [--format]
 # --format: check the source formatting too, and count a warning of the compiler as an error.
-# The last line is `N passed, N failed`, counted in test cases; the exit status is 0 only when none failed.
+# The last line is `N passed, N failed`, counted in test cases; what is skipped has failed. The exit status is 0 only
+# when none failed.
 set -euo pipefail
 # shellcheck source=scripts/common.sh
 . "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 exec </dev/null
 
 format=
-build_options=(-DCONCAVE_DISTANCE_WITH_ROS=ON -DCONCAVE_DISTANCE_BUILD_TESTS=ON -DCONCAVE_DISTANCE_WITH_THESIS=ON)
+# Each optional part by name: what cannot be built is a failure, whatever the build folder was configured with before.
+build_options=(-DCONCAVE_DISTANCE_WITH_ROS=ON -DCONCAVE_DISTANCE_BUILD_TESTS=ON -DCONCAVE_DISTANCE_WITH_THESIS=ON
+  -DCONCAVE_DISTANCE_WITH_PYTHON=ON -DCONCAVE_DISTANCE_WITH_CGAL=ON)
 for argument in "$@"; do
   case "$argument" in
     --format)
@@ -56,16 +60,15 @@ unset ROS_IP ROS_MASTER_URI
 rm -rf "$build_dir/test_results"
 mkdir -p "$build_dir/test_results" "$ROS_LOG_DIR"
 
-# run_tests <name> <ctest arguments ...>: what failed is kept in failed-<name>.log.
+# run_tests <name> <ctest arguments ...>: what failed is kept in failed-<name>.log, all output in output-<name>.log.
 run_tests() {
-  local name="$1" kept="$build_dir/test_results/failed-$1.log"
+  local name="$1" results="$build_dir/test_results" logs="$build_dir/Testing/Temporary"
   shift
-  rm -f "$build_dir/Testing/Temporary/LastTestsFailed.log"
+  rm -f "$logs/LastTestsFailed.log" "$logs/LastTest.log"
   (cd "$build_dir" && ctest --timeout 300 --output-on-failure "$@") || true
-  if [ -f "$build_dir/Testing/Temporary/LastTestsFailed.log" ]; then
-    cp "$build_dir/Testing/Temporary/LastTestsFailed.log" "$kept"
-  fi
-  count_arguments+=(--failed-log "$kept")
+  cp "$logs/LastTest.log" "$results/output-$name.log"
+  if [ -f "$logs/LastTestsFailed.log" ]; then cp "$logs/LastTestsFailed.log" "$results/failed-$name.log"; fi
+  count_arguments+=(--failed-log "$results/failed-$name.log" --output-log "$results/output-$name.log")
   say "$name tests are through after $((SECONDS - started)) s"
 }
 run_tests unit --exclude-regex _rostest_ --parallel "$(job_count)"

@@ -28,7 +28,13 @@ if(NOT result EQUAL 0 OR NOT output MATCHES "No Python package is built: .*pybin
 endif()
 require_target(FALSE)
 
-configure(result output -DCONCAVE_DISTANCE_WITH_PYTHON=ON)
+configure(result output -DCMAKE_DISABLE_FIND_PACKAGE_pybind11=OFF)
+if(NOT result EQUAL 0)
+  message(FATAL_ERROR "with pybind11 that was installed later: ${result}, ${output}")
+endif()
+require_target(TRUE)
+
+configure(result output -DCMAKE_DISABLE_FIND_PACKAGE_pybind11=ON -DCONCAVE_DISTANCE_WITH_PYTHON=ON)
 if(result EQUAL 0 OR NOT output MATCHES "CONCAVE_DISTANCE_WITH_PYTHON is ON, but .*pybind11-dev")
   message(FATAL_ERROR "asked for without pybind11: ${result}, ${output}")
 endif()

@@ -62,6 +62,14 @@ class CountTest(unittest.TestCase):
         self.assertEqual(self.count([("consumer", ["cmake"])]), (1, 0))
         self.assertEqual(self.count([("consumer", ["cmake"])], ["consumer"]), (0, 1))
 
+    def test_a_python_program_that_skips_cases_is_a_failure(self):
+        log = os.path.join(self.folder, "LastTest.log")
+        with open(log, "w") as output:
+            output.write("1/3 Testing: whole\n1/3 Test: whole\nRan 3 tests in 1.0s\n\nOK\n<end of output>\nTest Passed.\n"
+                         "2/3 Testing: partly\n2/3 Test: partly\nRan 3 tests in 1.0s\n\nOK (skipped=2)\n<end of output>\n"
+                         "Test Passed.\n3/3 Testing: speaks\n3/3 Test: speaks\nskipped=1 link\nTest Passed.\n")
+        self.assertEqual(count_test_results.skipped_in([log]), ["partly"])
+
     def test_no_test_at_all_is_a_failure(self):
         self.assertEqual(self.count([]), (0, 1))
 

@@ -213,7 +213,7 @@ def main():
             stream.write(written(now))
         return 0
     before = promised()
-    if not any(kind == "message" for kind, _ in now):
+    if not has_all and not any(kind == "message" for kind, _ in now):
         before = {key: names for key, names in before.items() if key[0] not in ("message", "service")}
     if not has_all:
         before = {key: names for key, names in before.items() if key[1] != WITH_ROS}
