@@ -95,6 +95,6 @@ if [ -n "$(program engine_table)" ]; then  # built with Simbody and ODE only
   "$root/scripts/write_engine_table.py"
 fi
 if [ "$size" = full ]; then
-  find "$results" -maxdepth 1 \( -name '*.csv' -o -name '*.txt' \) ! -name provenance.csv -newer "$started" \
-    -exec "$root/scripts/provenance.py" record {} +
+  find "$results" -maxdepth 1 \( -name '*.csv' -o -name '*.txt' \) ! -name runs.csv ! -name numbers.csv -newer "$started" \
+    -exec "$root/test/scripts/check_results.py" --record {} +
 fi

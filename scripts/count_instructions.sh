@@ -1,7 +1,7 @@
 #!/bin/sh
 # Instructions of the cycles of a pair that asks for distance alone, apart and in contact, with the code of the
 # effects and with it compiled out, counted by valgrind's callgrind (scripts/install_dependencies.sh plot).
-# Without a pair: of the usual ones, and writes doc/results/instructions.csv and the table of doc/effects.md.
+# Without a pair: of the usual ones, and writes doc/results/instructions.csv.
 # Fails where any two counts differ.
 #
 #   scripts/count_instructions.sh [build folder] [pair ...]
@@ -36,16 +36,6 @@ for pair in "$@"; do
 done
 if [ -n "$file" ]; then
   cp "$rows" "$file"
-  /usr/bin/python3 - "$file" doc/effects.md <<'END'
-import csv, re, sys
-table = "| pair | | with effects | compiled out | difference |\n| --- | --- | --- | --- | --- |\n"
-for row in csv.DictReader(open(sys.argv[1])):
-    counts = int(row["with_effects"]), int(row["compiled_out"])
-    table += f"| `{row['pair']}` | {row['state']} | {counts[0]:,} | {counts[1]:,} | {counts[0] - counts[1]} |\n"
-text = open(sys.argv[2]).read()
-begin, end = "<!-- table: instructions -->\n", "<!-- end -->"
-open(sys.argv[2], "w").write(re.sub(f"(?s)(?<={begin}).*?(?={end})", table, text))
-END
-  scripts/provenance.py record "$file"
+  test/scripts/check_results.py --record "$file"
 fi
 awk -F, 'NR > 1 && $3 != $4 { different = 1 } END { exit different }' "$rows"

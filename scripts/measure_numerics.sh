@@ -12,4 +12,4 @@ CONCAVE_DISTANCE_ACCURACY_PAIRS=100000 "$build_dir/test/bin/distance_tests" \
   --gtest_filter='*StaysWithinTheStatedBounds*' | grep worst: >"$found"
 "$build_dir/test/bin/numerics_tests" --gtest_filter='*HardCase*:*HardProof*' | grep worst: >>"$found"
 cp "$found" doc/results/numerics.txt
-scripts/provenance.py record doc/results/numerics.txt --defaults tracker --command scripts/measure_numerics.sh
+test/scripts/check_results.py --record numerics.txt

@@ -40,7 +40,4 @@ for setting in "${settings[@]}"; do
 done
 /usr/bin/python3 "$package_dir/scripts/plot_rows.py" "$output"
 cd "$package_dir"
-for result in doc/results/rows.csv 'doc/results/rows_*.csv' 'doc/images/rows*.png'; do
-  scripts/provenance.py record "$result" --defaults tracker --command scripts/measure_rows.sh \
-    --inputs 'config/rows_*.yaml,urdf/clamp.urdf,urdf/wam.urdf,meshes/rows/clamp.stl'
-done
+test/scripts/check_results.py --record doc/results/rows*.csv

@@ -8,8 +8,6 @@ import pathlib
 
 import matplotlib
 
-import provenance
-
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402  (the backend comes first)
 
@@ -76,7 +74,6 @@ def main():
     figure.tight_layout(rect=(0.0, 0.0, 1.0, 0.975))
     figure.savefig(ROOT / "doc" / "images" / "engine_differences.png", dpi=110)
     print("doc/images/engine_differences.png")
-    provenance.record([ROOT / "doc" / "images" / "engine_differences.png"])
 
 
 if __name__ == "__main__":

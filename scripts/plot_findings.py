@@ -12,13 +12,12 @@ import statistics
 
 import matplotlib
 
-import provenance
-
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402  (the backend comes first)
 
-RESULTS = provenance.ROOT / "doc" / "results"
-IMAGES = provenance.ROOT / "doc" / "images"
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+RESULTS = ROOT / "doc" / "results"
+IMAGES = ROOT / "doc" / "images"
 BEFORE, NOW = "#D55E00", "#0072B2"  # Okabe and Ito's vermilion and blue
 KERNEL_BOUND, WITNESS_BOUND, QUERY_BOUND = 32, 4, 64  # of doc/numerics.md, in the units of numerics.txt
 
@@ -28,12 +27,10 @@ def rows_of(name):
         return list(csv.DictReader(file))
 
 
-def save(figure, name, inputs):
+def save(figure, name):
     figure.tight_layout()
     figure.savefig(IMAGES / name, dpi=90)
     plt.close(figure)
-    provenance.record([IMAGES / name], inputs=",".join(f"doc/results/{each}" for each in inputs),
-                      command="scripts/plot_findings.py")
 
 
 def plot_levels():
@@ -52,7 +49,7 @@ def plot_levels():
     axes.set_xscale("log")
     axes.set_xlim(1, 2e4)
     axes.set_xlabel("microseconds a cycle, tracked at 40 Hz, median of the pairs")
-    save(figure, "level_costs.png", ["accuracy.csv"])
+    save(figure, "level_costs.png")
 
 
 def plot_numerics():
@@ -75,7 +72,7 @@ def plot_numerics():
     axes.set_xlim(0, 1.05)
     axes.set_xlabel("worst error seen / bound that is promised (line: the bound)")
     axes.grid(axis="x", alpha=0.3)
-    save(figure, "numerics.png", ["numerics.txt"])
+    save(figure, "numerics.png")
 
 
 def plot_contact():
@@ -92,7 +89,7 @@ def plot_contact():
     axes.set_xlabel("error / bound (right of the line: outside)")
     axes.set_ylabel("figures")
     axes.legend()
-    save(figure, "contact_scenes.png", ["contact_scenes.csv", "contact_scenes_before.csv"])
+    save(figure, "contact_scenes.png")
 
 
 def plot_faults():
@@ -106,7 +103,7 @@ def plot_faults():
     axes.set_xticks(range(len(groups)), groups, rotation=40, ha="right", fontsize=8)
     axes.set_ylabel("attacks that fail")
     axes.legend()
-    save(figure, "faults.png", ["faults.csv", "faults_before.csv"])
+    save(figure, "faults.png")
 
 
 def main():

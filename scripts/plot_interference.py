@@ -9,8 +9,6 @@ import pathlib
 
 import matplotlib
 
-import provenance
-
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402  (the backend comes first)
 import numpy as np  # noqa: E402
@@ -105,7 +103,6 @@ def main():
                        color="black" if place == 0 else COLOURS[(place - 1) % len(COLOURS)])
     figure.subplots_adjust(left=0.0, right=1.0, bottom=0.0, top=0.88, wspace=0.02)
     figure.savefig(ROOT / "doc" / "images" / "interference.png", dpi=110)
-    provenance.record([ROOT / "doc" / "images" / "interference.png"])
 
 
 if __name__ == "__main__":

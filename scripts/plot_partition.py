@@ -13,8 +13,6 @@ import tempfile
 
 import matplotlib
 
-import provenance
-
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402  (the backend comes first)
 import numpy as np  # noqa: E402
@@ -137,7 +135,6 @@ def plot_crossing():
     figure.savefig(IMAGES / "partition_crossing.png", dpi=100)
     plt.close(figure)
     print("thesis/doc/images/partition_crossing.png")
-    provenance.record([IMAGES / "partition_crossing.png"])
 
 
 if __name__ == "__main__":

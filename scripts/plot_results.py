@@ -10,7 +10,6 @@ import pathlib
 
 import matplotlib
 
-import provenance
 from accuracy_plots import draw_budgets, draw_pairs, draw_summary
 from manoeuvre import draw_manoeuvre, read_curves
 
@@ -199,8 +198,6 @@ def main():
     if curves:  # of a build with CGAL
         draw_manoeuvre(curves, plt, MANOEUVRE)
         print(MANOEUVRE)
-    provenance.record([IMAGES / name for name in ("proof_*.png", "niche_cycles.png", "niche_recall.png", "accuracy_*.png",
-                                                  "stages.png")] + [MANOEUVRE])
 
 
 if __name__ == "__main__":

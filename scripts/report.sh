@@ -25,8 +25,10 @@ results=${2:-build/evaluation_$size}
 program() { find build -path build/test -prune -o -type f -perm -u+x -name "$1" -print | head -n 1; }
 scripts/install_dependencies.sh build plot
 scripts/build.sh programs -DCONCAVE_DISTANCE_WITH_THESIS=ON
-# Rows that are there are not run again: they have to be what this program makes of these experiments.
-scripts/report_rows.py prepare "$results" --program "$(program evaluate)"
+# Rows that are there are not run again: they have to be of this commit.
+mkdir -p "$results"
+[ -f "$results/commit" ] || git rev-parse HEAD >"$results/commit"
+[ "$(git rev-parse HEAD)" = "$(cat "$results/commit")" ] || die "$results has rows of another commit: remove it"
 "$(program evaluate)" thesis/experiments/*.yaml --size "$size" --output "$results"
 if [ -n "$(program partition_benchmark)" ]; then  # built with CGAL only
   "$(program partition_benchmark)" --curves-output "$results/manoeuvre.csv"
@@ -43,15 +45,8 @@ fi
 kept=doc/results/evaluation
 if [ -f "$results/manoeuvre.csv" ]; then
   cp "$results/manoeuvre.csv" doc/results/
-  scripts/provenance.py record doc/results/manoeuvre.csv
 fi
 scripts/keep_rows.py "$results" --output "$kept"
-scripts/report_rows.py record "$results" "$kept"
-if [ -f "$kept/run_flops.csv.xz" ]; then
-  scripts/provenance.py record "$kept/run_flops.csv.xz" --defaults tracker,thesis --inputs 'thesis/experiments/table_*.yaml' \
-    --command 'scripts/report.sh full'
-fi
 scripts/plot_thesis_figures.py "$kept" --output doc/results/images
 /usr/bin/python3 scripts/write_evaluation.py "$kept"
-scripts/provenance.py record doc/results/evaluation.md 'doc/results/images/evaluation_*.png' --defaults tracker,thesis \
-  --inputs "thesis/experiments/*.yaml,$kept/*.csv.xz,doc/results/manoeuvre.csv" --command 'scripts/report.sh full'
+test/scripts/check_results.py --record manoeuvre.csv "$kept"/*.csv.xz

@@ -22,4 +22,4 @@ mkdir -p "$output"
 } | tee "$root/doc/results/simulation.txt"
 /usr/bin/python3 "$root/scripts/plot_simulation.py" "$output"
 cd "$root"
-scripts/provenance.py record doc/results/simulation.txt doc/results/two_feet.csv 'doc/images/simulation_*.png'
+test/scripts/check_results.py --record simulation.txt two_feet.csv

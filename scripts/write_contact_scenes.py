@@ -13,8 +13,6 @@ import os
 import re
 import sys
 
-import provenance
-
 SCRIPTS = os.path.dirname(os.path.abspath(__file__))
 RESULTS = os.path.join(os.path.dirname(SCRIPTS), "doc", "results")
 SPEED = "real-time factor"
@@ -153,8 +151,6 @@ def main():
     lines += speeds(rows, before, reasons)
     with open(options.output, "w") as file:
         file.write("\n".join(lines) + "\n")
-    if options.output == parser.get_default("output"):
-        provenance.record([options.output])
     if reasons.wrong():
         sys.exit("\n".join([options.reasons + ":"] + reasons.wrong()))
 
