@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Attacks the built node and tools from outside: hostile meshes, requests, transforms, clocks, parameters, files.
-#   scripts/faults.sh [attacks ...]                  every attack, or those whose names match ('tf/*'); about 25 minutes
+# Attacks the built node from outside: hostile requests, bodies, transforms, clocks, connections.
+#   scripts/faults.sh [attacks ...]                  every attack, or those whose names match ('tf/*')
 #   scripts/faults.sh --storm SECONDS [--seed N]     everything at once, at random, against one node
 #   scripts/faults.sh --sanitized [...]              the same against programs with ASan and UBSan, several times slower
 #   scripts/faults.sh --list                         the names of all attacks (test/faults/README.md explains them)

@@ -1,6 +1,5 @@
 #!/usr/bin/python3
-"""Draws the pictures of findings from their results: doc/images/level_costs.png, numerics.png,
-contact_scenes.png, faults.png.
+"""Draws the pictures of findings from their results: doc/images/level_costs.png, numerics.png, contact_scenes.png.
 
     scripts/plot_findings.py           (needs python3-matplotlib: scripts/install_dependencies.sh plot)
 """
@@ -92,25 +91,10 @@ def plot_contact():
     save(figure, "contact_scenes.png")
 
 
-def plot_faults():
-    """Attacks that fail, by group, before the work on robustness and now."""
-    figure, axes = plt.subplots(figsize=(8, 3.2))
-    runs = [(rows_of("faults_before.csv"), BEFORE, "before"), (rows_of("faults.csv"), NOW, "now")]
-    groups = list(dict.fromkeys(row["attack"].split("/")[0] for row in runs[1][0]))
-    for place, (rows, colour, label) in enumerate(runs):
-        failed = [sum(row["attack"].split("/")[0] == group and row["passed"] == "0" for row in rows) for group in groups]
-        axes.bar([i + 0.4 * place - 0.2 for i in range(len(groups))], failed, 0.38, color=colour, label=f"{label}: {sum(failed)} of {len(rows)}")
-    axes.set_xticks(range(len(groups)), groups, rotation=40, ha="right", fontsize=8)
-    axes.set_ylabel("attacks that fail")
-    axes.legend()
-    save(figure, "faults.png")
-
-
 def main():
     plot_levels()
     plot_numerics()
     plot_contact()
-    plot_faults()
 
 
 if __name__ == "__main__":

@@ -176,11 +176,9 @@ class Arena:
             raise Failed("no node runs")
         return self.running_node
 
-    def start_node(self, log_name, parameters=None, scene=None, **options):
-        """scene: the text of another one than SCENE, beside the same meshes."""
+    def start_node(self, log_name, parameters=None, **options):
         from node_under_test import Node
-        scene_file = self.write("scene/%s.yaml" % log_name, scene) if scene else self.scene_file
-        values = {"scene_file": scene_file, "robot_description": "", "rate": 50.0}
+        values = {"scene_file": self.scene_file, "robot_description": "", "rate": 50.0}
         values.update(parameters or {})
         self.running_node = Node(self, values, log_name, **options)
         return self.running_node

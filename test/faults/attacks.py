@@ -4,7 +4,7 @@ import collections
 import re
 
 Attack = collections.namedtuple(
-    "Attack", "name group act deadline growth_mb silence dies storms fast program")
+    "Attack", "name group act deadline growth_mb silence dies storms fast")
 groups = collections.OrderedDict()  # name -> Group
 
 
@@ -13,26 +13,21 @@ class Failed(Exception):
 
 
 class Group:
-    """Attacks that share a node: `setting` holds arguments of node_under_test.Node; None: no node is started.
-    beside: they need no master either and run in parallel with the other groups."""
+    """Attacks that share a node: `setting` holds arguments of node_under_test.Node; None: no node is started."""
 
-    def __init__(self, name, setting=None, beside=False):
+    def __init__(self, name, setting=None):
         self.name = name
         self.setting = setting
-        self.beside = beside
         self.attacks = []
         groups[name] = self
 
-    def add(self, name, act, deadline=30.0, growth_mb=200.0, silence=10.0, dies=False, storms=True, fast=False,
-            program=None):
+    def add(self, name, act, deadline=30.0, growth_mb=200.0, silence=10.0, dies=False, storms=True, fast=False):
         """`act(arena)` attacks and raises Failed. deadline: longest duration, s; growth_mb: largest growth of
         the node; silence: longest time without an answer to list_bodies, s; dies: the attack itself ends the
-        node; storms: takes part in storms; fast: belongs to the subset of every test run; program: an optional
-        program, without which the attack is left out."""
+        node; storms: takes part in storms; fast: belongs to the subset of every test run."""
         if any(attack.name == name for attack in self.attacks):
             raise ValueError("two attacks of group '%s' are called '%s'" % (self.name, name))
-        self.attacks.append(Attack(name, self.name, act, deadline, growth_mb, silence, dies, storms, fast,
-                                   program))
+        self.attacks.append(Attack(name, self.name, act, deadline, growth_mb, silence, dies, storms, fast))
 
     def attack(self, **options):
         """The same as a decorator: the attack has the function's name."""

@@ -5,8 +5,8 @@ import time
 
 import dynamic_reconfigure.msg
 import dynamic_reconfigure.srv
-from attacks import Failed, Group, expect, shortened
-from request_checks import MEGABYTE, call, require_refused, require_sound
+from attacks import Failed, Group, expect
+from request_checks import MEGABYTE, call, require_refused
 
 group = Group("services", {})
 NAN, INF = float("nan"), float("inf")

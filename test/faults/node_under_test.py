@@ -137,13 +137,6 @@ class Node:
             time.sleep(0.05)
         raise Failed("the node is not ready after %.0f s: %s" % (timeout, message))
 
-    def wait_for_end(self, timeout):
-        """The exit status, or None when the node still runs after the time."""
-        deadline = time.monotonic() + timeout * self.arena.patience
-        while self.alive() and time.monotonic() < deadline:
-            time.sleep(0.02)
-        return self.process.poll()
-
     def stop(self):
         """Seconds until the node had ended after SIGINT; None when it had to be killed."""
         seconds = processes.end_group(self.process, signal.SIGINT, 15.0 * self.arena.patience)

@@ -65,16 +65,15 @@ def processor_seconds(pid):
     return (int(fields[11]) + int(fields[12])) / TICKS
 
 
-def start(command, environment=None, output=subprocess.DEVNULL, address_space_gb=None, stdin=subprocess.DEVNULL,
-          cwd=None):
+def start(command, environment=None, output=subprocess.DEVNULL, address_space_gb=None):
     """Starts a program in a process group of its own, with a limit on its memory and without core files."""
     def limit():
         resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
         if address_space_gb:
             bytes_allowed = int(address_space_gb * 2**30)
             resource.setrlimit(resource.RLIMIT_AS, (bytes_allowed, bytes_allowed))
-    return subprocess.Popen(command, env=environment, stdin=stdin, stdout=output, stderr=subprocess.STDOUT,
-                            start_new_session=True, preexec_fn=limit, cwd=cwd)
+    return subprocess.Popen(command, env=environment, stdin=subprocess.DEVNULL, stdout=output, stderr=subprocess.STDOUT,
+                            start_new_session=True, preexec_fn=limit)
 
 
 def end_group(process, gently=None, timeout=15.0):
@@ -108,28 +107,3 @@ def ended_as(process):
         except ValueError:
             return "ended by signal %d" % -code
     return "exited with status %d" % code
-
-
-def run(command, timeout, environment=None, address_space_gb=6.0, output_path=None, stdin=subprocess.DEVNULL, cwd=None,
-        largest_mb=None):
-    """Runs a program to its end: (status or None when it was still running after `timeout`, output, peak MiB).
-    A program that grows beyond largest_mb is ended, with status None too."""
-    path = output_path or "/dev/null"
-    with open(path, "wb") as output:
-        process = start(command, environment, output, address_space_gb, stdin, cwd)
-        deadline = time.monotonic() + timeout
-        peak = 0.0
-        pause = 0.005
-        while process.poll() is None and time.monotonic() < deadline:
-            peak = max(peak, resident_mb(process.pid))
-            if largest_mb and peak > largest_mb:
-                break
-            time.sleep(pause)
-            pause = min(0.1, 1.5 * pause)
-        status = process.poll()
-        end_group(process)
-    text = ""
-    if output_path:
-        with open(output_path, errors="replace") as written:
-            text = written.read(1 << 20)
-    return status, text, peak

@@ -20,10 +20,8 @@ import traceback
 from arena import Arena
 from attacks import Failed, expect, groups, shortened
 
-MODULES = ("mesh_faults", "hostile_queries", "hostile_bodies", "hostile_services", "hostile_operations", "hostile_motions",
-           "hostile_recordings", "hostile_clouds", "bridge_faults", "cob_faults", "hostile_wire", "races", "tf_faults",
-           "clock_faults", "parameter_faults", "scene_faults", "tool_faults", "bag_faults", "python_faults",
-           "launch_faults")
+MODULES = ("hostile_queries", "hostile_bodies", "hostile_services", "hostile_operations", "hostile_wire", "races", "tf_faults",
+           "clock_faults")
 GRACE = 60.0  # s after its deadline when a hanging attack is abandoned
 
 
@@ -151,15 +149,11 @@ class Runner:
             self.report("%s/%s" % (group.name, attack.name), time.monotonic() - began, 0.0, failure)
 
     def run_all(self, chosen):
-        beside = threading.Thread(daemon=True, target=lambda: [
-            self.run_alone(group, attacks) for group, attacks in chosen if group.beside])
-        beside.start()
         for group, attacks in chosen:
             if group.setting is not None and attacks:
                 self.run(group, attacks)
-            elif not group.beside:
+            else:
                 self.run_alone(group, attacks)
-        beside.join()
 
     def finish(self, path):
         if path:
@@ -178,10 +172,9 @@ class Runner:
         return 1 if failed else 0
 
 
-def chosen_of(group, patterns, fast, arena):
+def chosen_of(group, patterns, fast):
     return [attack for attack in group.attacks
             if (attack.fast or not fast)
-            and (attack.program is None or os.path.exists(arena.program(attack.program)))
             and (not patterns or any(fnmatch.fnmatch("%s/%s" % (group.name, attack.name), pattern)
                                      for pattern in patterns))]
 
@@ -226,7 +219,7 @@ def main(arguments):
     try:
         arena.join_ros()
         load_attacks()
-        chosen = [(group, chosen_of(group, options.patterns, options.fast, arena)) for group in groups.values()]
+        chosen = [(group, chosen_of(group, options.patterns, options.fast)) for group in groups.values()]
         expect(any(attacks for _, attacks in chosen), "no attack has such a name (--list prints all names)")
         if options.storm is None:
             runner.run_all(chosen)

@@ -47,7 +47,7 @@ class Storm:
         self.seed = seed
         self.groups = [storming for storming in (
             [attack for attack in chosen if attack.storms] for group, chosen in attacks
-            if group.setting is not None and "scene" not in group.setting) if storming]  # one scene for all
+            if group.setting is not None) if storming]
         self.running = True
         self.done = collections.Counter()
         self.failed = collections.Counter()

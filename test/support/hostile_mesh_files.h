@@ -9,7 +9,7 @@
 
 namespace concave_distance::test {
 
-/// A file of test/faults/hostile_meshes.py and whether it is to be served or refused.
+/// A file of test/support/hostile_meshes.py and whether it is to be served or refused.
 struct HostileMesh {
   std::string expectation;
   std::string name;
@@ -18,7 +18,7 @@ struct HostileMesh {
 
 inline std::vector<HostileMesh> writeHostileMeshes(const std::string& folder) {
   const std::string command =
-      "python3 '" CONCAVE_DISTANCE_SOURCE_DIR "/test/faults/hostile_meshes.py' '" + folder + "'";
+      "python3 '" CONCAVE_DISTANCE_SOURCE_DIR "/test/support/hostile_meshes.py' '" + folder + "'";
   std::FILE* pipe = popen(command.c_str(), "r");
   if (pipe == nullptr) return {};
   std::string output;

@@ -1,21 +1,16 @@
-"""Calls one function of the Python module with hostile values in the place of each argument; python_faults.py runs it.
-
-    python_probe.py FOLDER FUNCTION
-
-FOLDER holds scene.yaml and robot.urdf. What is neither an answer, an Error with its texts nor a TypeError is printed.
-"""
-
+#!/usr/bin/env python3
+"""Every function of the Python module with hostile values in the place of each argument: an answer, an Error with its texts or a
+TypeError, and the interpreter goes on."""
 import faulthandler
 import os
-import sys
-import time
-
-import numpy as np
+import resource
+import tempfile
+import unittest
 
 import concave_distance as cd
+import numpy as np
 
 LONGEST_MESSAGE = 200000
-SLOW = 5.0  # s
 NAN, INF = float("nan"), float("inf")
 POSE = np.array([2.0, 0, 0, 0, 0, 0, 1])
 
@@ -60,16 +55,16 @@ def values(folder, joints):
 def calls(folder):
     """Each function with good arguments and the names of further ones."""
     box, ball = cd.make_box((1, 1, 1)), cd.make_sphere(0.5)
-    scene = cd.load_scene(os.path.join(folder, "scene.yaml"), cache="off")
-    robot = cd.load_robot(os.path.join(folder, "robot.urdf"), cache="off")
+    scene = cd.load_scene(os.path.join(folder, "scene.yaml"))
+    robot = cd.load_robot(os.path.join(folder, "robot.urdf"))
     still = np.zeros(len(robot.position_names))
     pair, scene_tracker, robot_tracker = cd.PairTracker(box, ball), cd.SceneTracker(scene), cd.SceneTracker(robot)
     robot_tracker.update(robot.poses_of_bodies(still), 0.0)
     parameters = [one["name"] for one in cd.parameters()]
-    files = ["package_folders", "mesh_folders", "strict", "cache"]
+    files = ["package_folders", "mesh_folders", "strict"]
     motion = ["times", "start", "roots", "bodies", "tolerance", "threshold", "time_budget", "sample_limit", "threads",
               "each_pair", "niches", "progress"]
-    yield "load_body", cd.load_body, ["none.stl"], ["scale", "max_edge_length", "cache"]
+    yield "load_body", cd.load_body, ["none.stl"], ["scale", "max_edge_length"]
     yield "make_body", cd.make_body, [np.eye(3), [[0, 1, 2]]], ["name", "weld_tolerance", "orient"]
     yield "make_box", cd.make_box, [(1, 1, 1)], ["name"]
     yield "make_sphere", cd.make_sphere, [1.0], ["name", "chord_error"]
@@ -100,7 +95,6 @@ def shown(value):
 
 def problem_of(function, arguments, keywords, value):
     """What is wrong with the outcome of a call, or None."""
-    began = time.monotonic()
     try:
         function(*arguments, **keywords)
     except cd.Error as error:
@@ -113,34 +107,70 @@ def problem_of(function, arguments, keywords, value):
     except Exception as error:
         if not isinstance(value, Evil) and not isinstance(error, ZeroDivisionError):
             return "%s: %.200s" % (type(error).__name__, error)
-    seconds = time.monotonic() - began
-    return "it took %.1f s" % seconds if seconds > SLOW else None
+    return None
 
 
-def main(folder, name):
-    faulthandler.enable()
-    problems, count = 0, 0
-    for label, function, good, further in calls(folder):
-        if label != name:
-            continue
-        joints = 2
-        for place in list(range(len(good))) + further:
-            for value in values(folder, joints):
-                arguments, keywords = list(good), {}
-                if label.startswith("find_clearance"):
-                    keywords["time_budget"] = 0.2
-                if isinstance(place, int):
-                    arguments[place] = value
-                else:
-                    keywords[place] = value
-                count += 1
-                problem = problem_of(function, arguments, keywords, value)
-                if problem:
-                    problems += 1
-                    print("%s(%s = %s): %s" % (label, place, shown(value), problem), flush=True)
-    print("%d calls, %d problems" % (count, problems))
-    return 1 if problems or not count else 0
+SCENE = """bodies:
+  - {name: a, frame: world, box: {size: [1, 1, 1]}}
+  - {name: b, frame: b, box: {size: [1, 1, 1]}}
+pairs:
+  - {between: [a, b]}
+"""
+ROBOT = """<robot name="arm">
+  <link name="base"><collision><geometry><box size="1 1 1"/></geometry></collision></link>
+  <link name="middle"><collision><geometry><box size="0.1 0.1 0.1"/></geometry></collision></link>
+  <link name="tip"><collision><geometry><sphere radius="0.2"/></geometry></collision></link>
+  <joint name="slide" type="prismatic"><parent link="base"/><child link="middle"/><origin xyz="2 0 0"/><axis xyz="1 0 0"/>
+    <limit lower="-1" upper="1" effort="1" velocity="1"/></joint>
+  <joint name="turn" type="revolute"><parent link="middle"/><child link="tip"/><origin xyz="1 0 0"/><axis xyz="0 0 1"/>
+    <limit lower="-3" upper="3" effort="1" velocity="1"/></joint>
+</robot>
+"""
+
+
+class Arguments(unittest.TestCase):
+    def test_hostile_values_end_in_an_answer_or_an_error(self):
+        problems = []
+        with tempfile.TemporaryDirectory() as folder:
+            for name, text in (("scene.yaml", SCENE), ("robot.urdf", ROBOT)):
+                with open(os.path.join(folder, name), "w", encoding="utf-8") as file:
+                    file.write(text)
+            for label, function, good, further in calls(folder):
+                for place in list(range(len(good))) + further:
+                    for value in values(folder, 2):
+                        arguments, keywords = list(good), {"time_budget": 0.2} if label.startswith("find_clearance") else {}
+                        if isinstance(place, int):
+                            arguments[place] = value
+                        else:
+                            keywords[place] = value
+                        problem = problem_of(function, arguments, keywords, value)
+                        if problem:
+                            problems.append("%s(%s = %s): %s" % (label, place, shown(value), problem))
+        self.assertEqual(problems, [])
+
+    def test_calls_and_their_errors_leave_no_memory_behind(self):
+        tracker, pose = cd.PairTracker(cd.make_box((1, 1, 1)), cd.make_sphere(0.5)), POSE[None]
+
+        def act(count):
+            for _ in range(count):
+                tracker.solve(pose)
+                for wrong in (lambda: tracker.solve("here"), lambda: cd.make_box((1, 1, -1))):
+                    with self.assertRaises(cd.Error):
+                        wrong()
+        act(2000)
+        before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+        act(10000)
+        self.assertLess(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before, 10000)  # kB
+
+    def test_a_forked_process_solves(self):
+        box, ball, poses = cd.make_box((1, 1, 1)), cd.make_sphere(0.5), many(2000)
+        cd.solve_each(box, ball, poses)
+        child = os.fork()
+        if child == 0:
+            os._exit(0 if np.all(np.isfinite(cd.PairTracker(box, ball).solve(poses).rows["distance"])) else 1)
+        self.assertEqual(os.waitpid(child, 0)[1], 0)
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1], sys.argv[2]))
+    faulthandler.enable()
+    unittest.main()
