@@ -49,7 +49,7 @@ if [ -n "$(program partition_benchmark)" ]; then  # built with CGAL only
   family=()
   if /usr/bin/python3 -c "import numpy" 2>/dev/null; then
     folder=$(mktemp -d)
-    /usr/bin/python3 "$root/scripts/generate_partition_family.py" "$folder" --hole-facets "$hole_facets" \
+    /usr/bin/python3 "$root/scripts/generate_geometry.py" partition "$folder" --hole-facets "$hole_facets" \
       --protrusions "$protrusions"
     family=(--family "$folder" --hole-facets "$hole_facets" --protrusions "$protrusions")
   else
@@ -92,7 +92,6 @@ if [ -n "$(program message_benchmark)" ]; then  # built with ROS only
 fi
 if [ -n "$(program engine_table)" ]; then  # built with Simbody and ODE only
   "$(program engine_table)" --output "$results/engine_table.csv"
-  "$root/scripts/write_engine_table.py"
 fi
 if [ "$size" = full ]; then
   find "$results" -maxdepth 1 \( -name '*.csv' -o -name '*.txt' \) ! -name runs.csv ! -name numbers.csv -newer "$started" \

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Measures the demo clouds from outside (scripts/measure_clouds.sh starts it).
+"""Measures the demo clouds from outside (scripts/measure.sh clouds starts it).
 
   measure_clouds.py [--messages 50] [--output FILE]
 

@@ -1,17 +1,18 @@
 #!/usr/bin/python3
-"""Draws the figures of doc/results from its CSV files: doc/images/proof_*.png, niche_*.png,
-accuracy_*.png, stages.png; thesis/doc/images/manoeuvre.png.
+"""Draws the figures of doc/results from its files: doc/images/proof_*.png, niche_*.png, level_costs.png, numerics.png,
+contact_scenes.png; thesis/doc/images/manoeuvre.png.
 
     scripts/plot_results.py            (needs python3-matplotlib: scripts/install_dependencies.sh plot)
 """
 import csv
 import math
 import pathlib
+import re
+import statistics
 
 import matplotlib
 
-from accuracy_plots import draw_budgets, draw_pairs, draw_summary
-from manoeuvre import draw_manoeuvre, read_curves
+from evaluation.manoeuvre import draw_manoeuvre, read_curves
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402  (the backend comes first)
@@ -19,6 +20,8 @@ import matplotlib.pyplot as plt  # noqa: E402  (the backend comes first)
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 RESULTS = ROOT / "doc" / "results"
 IMAGES = ROOT / "doc" / "images"
+BLUE, VERMILION = "#0072B2", "#D55E00"  # of Okabe and Ito
+KERNEL_BOUND, WITNESS_BOUND, QUERY_BOUND = 32, 4, 64  # of doc/numerics.md, in the units of numerics.txt
 MANOEUVRE = ROOT / "thesis" / "doc" / "images" / "manoeuvre.png"
 
 
@@ -35,28 +38,15 @@ def save(figure, name):
 
 
 def plot_speed(rows):
-    """How many times faster than FCL's plain distance, pair by pair."""
-    pairs = list(dict.fromkeys(row["pair"] for row in rows))
-    kinds = [("cold", 2000, "cold"), ("near", 500, "cold, near contact"), ("seeded", 499, "seeded, 100 Hz"), ("front", 499, "front, 100 Hz"),
-             ("front", 4999, "front, 1000 Hz")]
-    figure, axes = plt.subplots(figsize=(11, 5))
-    width = 0.8 / len(kinds)
-    for place, (kind, queries, label) in enumerate(kinds):
-        ratio = {row["pair"]: float(row["fcl_over_certified"]) for row in rows
-                 if row["kind"] == kind and int(row["queries"]) == queries}
-        axes.bar([i + (place - 0.5 * (len(kinds) - 1)) * width for i in range(len(pairs))], [ratio.get(pair, 0) for pair in pairs],
-                 width, label=label)
-    axes.set_yscale("log")
-    axes.set_ylabel("FCL's time / ours (medians)")
-    axes.set_xticks(range(len(pairs)), pairs, rotation=40, ha="right")
-    axes.axhline(1, color="black", linewidth=0.8)
-    axes.grid(axis="y", alpha=0.3)
-    limit = {row["pair"]: float(row["fcl_us"]) / float(row["limit_us"]) for row in rows
-             if row["kind"] == "front" and int(row["queries"]) == 499}
-    axes.plot(range(len(pairs)), [limit.get(pair, math.nan) for pair in pairs], "k_", markersize=18,
-              label="limit, 100 Hz")
-    axes.legend(loc="upper left", bbox_to_anchor=(1.01, 1.0))
-    axes.set_title("Proven distance against FCL's plain distance")
+    """How many times faster than FCL's plain distance, pair by pair, at 100 Hz along a motion."""
+    ratios = {row["pair"]: float(row["fcl_over_certified"]) for row in rows if (row["kind"], row["queries"]) == ("front", "499")}
+    figure, axes = plt.subplots(figsize=(8, 3.6))
+    axes.plot(list(ratios.values()), range(len(ratios)), "o", color=BLUE)
+    axes.set_yticks(range(len(ratios)), list(ratios), fontsize=8)
+    axes.set_xscale("log")
+    axes.set_xlabel("FCL's time / ours (medians), 100 Hz")
+    axes.axvline(1, color="black", linewidth=0.8)
+    axes.grid(axis="x", alpha=0.3)
     save(figure, "proof_speed.png")
 
 
@@ -147,41 +137,61 @@ def plot_cycles(rows):
     save(figure, "niche_cycles.png")
 
 
-def plot_accuracy(rows):
-    draw_summary(rows, plt, IMAGES / "accuracy_summary.png")
-    draw_pairs(rows, "cold", plt, IMAGES / "accuracy_cold.png")
-    draw_pairs(rows, "tracked", plt, IMAGES / "accuracy_tracked.png")
-    draw_budgets(rows, plt, IMAGES / "accuracy_budget.png")
-    print("doc/images/accuracy_*.png")
+def plot_levels(rows):
+    """What a cycle takes at each level, medians of the pairs: exact answers (blue) beside approximate ones."""
+    kinds = [("every niche, proven", "certified", "all niches", "exact, complete"), ("niches, perhaps not all", "refined", "all niches", ""),
+             ("search on grid nodes", "nodes", "shipped", ""), ("the distance within 10 %", "certified", "tolerance 0.1", ""),
+             ("the distance, proven", "certified", "tolerance 0", "exact"), ("FCL's distance", "FCL", "plain", "exact")]
+    figure, axes = plt.subplots(figsize=(8, 3.2))
+    for place, (label, method, setting, promise) in enumerate(kinds):
+        of_kind = [row for row in rows if (row["method"], row["setting"], row["mode"]) == (method, setting, "tracked")]
+        time = statistics.median(float(row["median_us"]) for row in of_kind)
+        error = max(float(row["largest_error"]) for row in of_kind)
+        axes.plot(time, place, "o", color=BLUE if promise else VERMILION)
+        axes.text(1.25 * time, place, f"{time:.3g} us, " + (promise or f"error up to {error:.2g} of the diameter"), va="center", fontsize=8)
+    axes.set_yticks(range(len(kinds)), [kind[0] for kind in kinds], fontsize=9)
+    axes.set_xscale("log")
+    axes.set_xlim(1, 2e4)
+    axes.set_xlabel("microseconds a cycle, tracked at 40 Hz, median of the pairs")
+    save(figure, "level_costs.png")
 
 
-def plot_stages(rows, message_rows):
-    """Where the time of a warm cycle goes, and what it takes to tell its answer."""
-    stages = [name for name in rows[0] if name not in ("pair", "level", "whole")] + ["messages", "markers"]
-    told = {(row["pair"], row["level"]): row for row in message_rows}
-    levels = ["nodes", "refined", "certified", "certified, distance alone"]
-    pairs = list(dict.fromkeys(row["pair"] for row in rows))
-    figure, axes = plt.subplots(figsize=(11, 5))
-    ticks = []
-    for i, pair in enumerate(pairs):
-        for k, level in enumerate(levels):
-            row = next(row for row in rows if row["pair"] == pair and row["level"] == level)
-            tell = told[pair, level]
-            row = {**row, "messages": float(tell["message"]) + float(tell["wire"]), "markers": tell["markers"]}
-            place = i * (len(levels) + 1) + k
-            ticks.append((place, level))
-            bottom = 0.0
-            for number, stage in enumerate(stages):
-                axes.bar(place, float(row[stage]), bottom=bottom, color=plt.get_cmap("tab10")(number), width=0.8,
-                         label=stage if place == 0 else None)
-                bottom += float(row[stage])
-        axes.text(i * (len(levels) + 1) + 1.5, -0.42, pair, ha="center", fontsize=9,
-                  transform=axes.get_xaxis_transform())
-    axes.set_xticks([place for place, _ in ticks], [level.replace("certified, ", "") for _, level in ticks], rotation=60, ha="right", fontsize=7)
-    axes.set_ylabel("microseconds a warm cycle (mean)")
-    axes.grid(axis="y", alpha=0.3)
-    axes.legend(fontsize=8)
-    save(figure, "stages.png")
+def plot_numerics():
+    """The worst error of each family of hard cases as a share of its bound."""
+    shares = []
+    for line in (RESULTS / "numerics.txt").read_text(encoding="utf-8").splitlines():
+        kernel = re.fullmatch(r"worst: (.+) distance ([\d.]+) witness ([\d.]+)", line)
+        query = re.fullmatch(r"worst: (\w+)/HardCase/(\w+) ([\d.]+) .*", line)
+        if kernel:
+            share = max(float(kernel[2]) / KERNEL_BOUND, float(kernel[3]) / WITNESS_BOUND)
+            shares.append((f"triangles: {kernel[1]}", share, BLUE))
+        elif query:
+            name = re.sub(r"(?<=[a-z])(?=[A-Z])", " ", query[1]).lower()
+            shares.append((f"queries, {query[2]}: {name}", float(query[3]) / QUERY_BOUND, "#009E73"))
+    shares.reverse()
+    figure, axes = plt.subplots(figsize=(8, 4.2))
+    axes.barh(range(len(shares)), [share for _, share, _ in shares], color=[colour for *_, colour in shares])
+    axes.set_yticks(range(len(shares)), [name for name, *_ in shares], fontsize=8)
+    axes.axvline(1, color="black", linewidth=1.5)
+    axes.set_xlim(0, 1.05)
+    axes.set_xlabel("worst error seen / bound that is promised (line: the bound)")
+    axes.grid(axis="x", alpha=0.3)
+    save(figure, "numerics.png")
+
+
+def plot_contact(rows):
+    """How the errors of all figures of contact stand to their bounds."""
+    figure, axes = plt.subplots(figsize=(8, 3.2))
+    decades = list(range(-10, 7))
+    shares = [abs(float(row["error"])) / float(row["bound"]) for row in rows
+              if row["within"] and row["bound"] and float(row["bound"]) > 0 and row["error"] not in ("", "nan")]
+    places = [min(max(math.floor(math.log10(share)) if share > 0 else decades[0], decades[0]), decades[-1]) for share in shares]
+    axes.bar([decade + 0.5 for decade in decades], [places.count(decade) for decade in decades], 0.8, color=BLUE)
+    axes.axvline(0, color="black", linewidth=1.5)
+    axes.set_xticks(range(-10, 8, 2), [f"1e{power}" for power in range(-10, 8, 2)])
+    axes.set_xlabel("error / bound (right of the line: outside)")
+    axes.set_ylabel("figures")
+    save(figure, "contact_scenes.png")
 
 
 def main():
@@ -192,8 +202,9 @@ def main():
     plot_scale(rows_of("scale.csv"))
     plot_recall(rows_of("budget.csv"), rows_of("budget_cold.csv"))
     plot_cycles(rows_of("front.csv"))
-    plot_accuracy(rows_of("accuracy.csv"))
-    plot_stages(rows_of("stages.csv"), rows_of("messages.csv"))
+    plot_levels(rows_of("accuracy.csv"))
+    plot_numerics()
+    plot_contact(rows_of("contact_scenes.csv"))
     curves = read_curves(RESULTS / "manoeuvre.csv")
     if curves:  # of a build with CGAL
         draw_manoeuvre(curves, plt, MANOEUVRE)

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Draws doc/images/rows.png and rows_arm.png and writes doc/results/rows.csv from the runs of scripts/measure_rows.sh.
+"""Draws doc/images/rows.png and rows_arm.png and writes doc/results/rows.csv from the runs of scripts/measure.sh rows.
 
     scripts/plot_rows.py <folder with a folder for each setting>     (needs python3-matplotlib)
 """

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Draws doc/images/simulation_*.png from what `simulate` wrote, and doc/results/two_feet.csv, the story of fig. 4.1.
 
-    scripts/plot_simulation.py <folder of scripts/simulation_report.sh>     (needs python3-matplotlib)
+    scripts/plot_simulation.py <folder of what `simulate` wrote, as in scripts/measure.sh>     (needs python3-matplotlib)
 """
 import csv
 import math

@@ -8,7 +8,7 @@
 # It installs and builds what is missing, and goes on where an interrupted run has ended. On several machines, each shard
 # into a folder of its own; here eight with GNU parallel over two hosts, then the join:
 #   parallel -S host1,host2 'cd concave_distance && build/devel/lib/concave_distance/evaluate thesis/experiments/*.yaml --size full --shard {}/8 --output shard_{}' ::: {0..7}
-#   scripts/keep_rows.py shard_* --output doc/results/evaluation && scripts/write_evaluation.py doc/results/evaluation
+#   scripts/evaluation/keep_rows.py shard_* --output doc/results/evaluation && scripts/write_evaluation.py doc/results/evaluation
 # As a Slurm array: sbatch --array=0-7 --wrap 'build/devel/lib/concave_distance/evaluate thesis/experiments/*.yaml --size full
 # --shard $SLURM_ARRAY_TASK_ID/8 --output shard_$SLURM_ARRAY_TASK_ID'.
 set -euo pipefail
@@ -34,7 +34,7 @@ if [ -n "$(program partition_benchmark)" ]; then  # built with CGAL only
   "$(program partition_benchmark)" --curves-output "$results/manoeuvre.csv"
 fi
 if [ "$size" = full ] && [ -n "$(program run_flops)" ]; then  # built with benchmarks and valgrind's headers only
-  scripts/count_run_flops.py --program "$(program run_flops)" --output "$results/run_flops.csv"
+  scripts/evaluation/count_run_flops.py --program "$(program run_flops)" --output "$results/run_flops.csv"
 fi
 if [ "$size" = quick ]; then
   mkdir -p "$results/images"
@@ -46,7 +46,7 @@ kept=doc/results/evaluation
 if [ -f "$results/manoeuvre.csv" ]; then
   cp "$results/manoeuvre.csv" doc/results/
 fi
-scripts/keep_rows.py "$results" --output "$kept"
+scripts/evaluation/keep_rows.py "$results" --output "$kept"
 scripts/plot_thesis_figures.py "$kept" --output doc/results/images
 /usr/bin/python3 scripts/write_evaluation.py "$kept"
 test/scripts/check_results.py --record manoeuvre.csv "$kept"/*.csv.xz

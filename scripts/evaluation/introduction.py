@@ -50,7 +50,7 @@ Below each table stands what every row has run.
 - x*', x': averages of the best and of the mean objective over a run, over the optimum's (5.1, 5.2).
 - kflop: by the thesis's rule, 26 for each point pair looked at (a step of a descent looks at about five) and 6 for each constraint: median [least-most].
   These are the evaluations alone; the thesis does not say whether its counts hold more. kflop executed, thousand instructions: of all that a run does,
-  selection, sharing, sorting and random numbers included, counted by `scripts/count_run_flops.py` (each addition, multiplication, division and root;
+  selection, sharing, sorting and random numbers included, counted by `scripts/evaluation/count_run_flops.py` (each addition, multiplication, division and root;
   median of a few runs). An evaluation in a descent takes fewer than 26, as the moving body is not transformed for each neighbour.
   Times are of one core of a shared machine.
 - recall, precision: of the outward niches of prominence 1e-2 that are proven to be all, in the final population (of a

@@ -4,8 +4,7 @@ import pathlib
 
 import matplotlib
 
-from manoeuvre import draw_manoeuvre, manoeuvre_table, read_curves
-
+from .manoeuvre import draw_manoeuvre, manoeuvre_table, read_curves
 from .rows import ROOT, read_rows
 
 matplotlib.use("Agg")

@@ -60,7 +60,7 @@ class Results:
 
 
 def with_counted_work(experiment, runs_of, counted):
-    """The columns, after `kflop` those of everything that a run does, where scripts/count_run_flops.py has counted it."""
+    """The columns, after `kflop` those of everything that a run does, where scripts/evaluation/count_run_flops.py has counted it."""
     works = {(row["row"], row["scene"]): row for row in counted if row["experiment"] == experiment["name"]}
     if not works or "kflop" not in experiment["columns"]:
         return experiment["columns"]

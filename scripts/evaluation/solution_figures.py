@@ -1,6 +1,5 @@
 """The thesis's pictures of solutions on the bodies: figures 2.19 to 2.35, 4.6, 4.8, 4.12 and 5.6."""
 import collections
-import statistics
 
 import matplotlib
 

@@ -1,6 +1,6 @@
 // The cycles of a pair that asks for distance alone, for counting their instructions: built once as it is,
 // and once with the code that runs effects compiled out (CONCAVE_DISTANCE_WITHOUT_EFFECTS).
-// scripts/count_instructions.sh runs both under callgrind, which counts within runCycles: the motion
+// scripts/measure.sh instructions runs both under callgrind, which counts within runCycles: the motion
 // once more, when all buffers have grown. What a pair asks for is decided before its cycles.
 //
 //   distance_cycle [--pair battery_insertion] [--steps 200] [--contact]

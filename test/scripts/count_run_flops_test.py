@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""scripts/count_run_flops.py knows what an instruction computes, and adds up a dump of callgrind by address."""
+"""scripts/evaluation/count_run_flops.py knows what an instruction computes, and adds up a dump of callgrind by address."""
 import pathlib
 import sys
 import tempfile
 import unittest
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "scripts"))
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "scripts" / "evaluation"))
 
 import count_run_flops  # noqa: E402  (the path comes first)
 

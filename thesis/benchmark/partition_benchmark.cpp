@@ -7,7 +7,7 @@
 //   partition_benchmark [--family FOLDER --hole-facets 6,12,20,40 --protrusions 1,4,8,16,32] [--repeats 2]
 //                       [--output doc/results/partition.csv] [--curves-output doc/results/manoeuvre.csv]
 //
-// FOLDER is what scripts/generate_partition_family.py wrote. A row is a method on a pair: hole facets and
+// FOLDER is what scripts/generate_geometry.py partition wrote. A row is a method on a pair: hole facets and
 // protrusions; sub-pairs of the partition; mean and largest error against the certified distance, metres;
 // microseconds of processor time a step (mean, median, the first step's; the fastest of the repeats at every
 // step); of the quadratic programs, the mean iterations of one at the first step and at the others, and the

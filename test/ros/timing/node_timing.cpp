@@ -5,7 +5,7 @@
 //
 // _topic is `niches` or `distances`; with _markers it subscribes to `markers` too, as rviz does; a _cutoff
 // that is not negative (m) is first set for every pair. Subscribes to that topic and to the diagnostics,
-// warms up, listens for that many seconds and prints figures, one a line. scripts/measure_node.sh starts it
+// warms up, listens for that many seconds and prints figures, one a line. scripts/measure.sh node starts it
 // beside the demo scenes. How to read them:
 //   cycles         the node's own count from its diagnostics; late: ended after the next one was due
 //   messages       on the topic, counted here: what a subscriber got; the largest gap between two of them

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Counts every floating-point operation of runs of the experiments, for the report: a line a row and scene.
 
-    scripts/count_run_flops.py [thesis/experiments/table_3_4.yaml ...] [--program build/devel/lib/concave_distance/run_flops]
+    scripts/evaluation/count_run_flops.py [thesis/experiments/table_3_4.yaml ...] [--program build/devel/lib/concave_distance/run_flops]
                                [--runs 3] [--output build/evaluation_full/run_flops.csv]
 
 Without files: the experiments that show the thesis's flops. What the output already has is not counted again.
@@ -24,7 +24,7 @@ import tempfile
 
 import yaml
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent
+ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 ARITHMETIC = re.compile(r"v?(add|sub|mul|div|sqrt|hadd|hsub|addsub)([sp])([sd])$")
 FUSED = re.compile(r"vf(?:n?m)(?:add|sub|addsub|subadd)(?:\d{3})?([sp])([sd])$")
 X87 = re.compile(r"f(?:add|sub|subr|mul|div|divr|sqrt)p?[sl]?$|fi(?:add|sub|mul|div)")

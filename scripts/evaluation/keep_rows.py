@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Keeps the rows that `evaluate` wrote, compressed.
 
-    scripts/keep_rows.py RESULTS [MORE_RESULTS ...] [--output doc/results/evaluation]
+    scripts/evaluation/keep_rows.py RESULTS [MORE_RESULTS ...] [--output doc/results/evaluation]
 
 The files of several folders, one for each shard, are joined. Of experiments that have no rows in any of the folders, what
 is kept is removed: all rows are of one run.
