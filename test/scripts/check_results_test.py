@@ -104,29 +104,27 @@ class Results(unittest.TestCase):
             self.git("commit", "-q", "-m", text)
 
     def test_commits_that_the_repository_has_not(self):
-        self.assertEqual(check_results.check_commits(self.root), (None, "this is no git repository"))
+        self.assertIn("no history", check_results.check_commits(self.root)[1])
         self.repository()
         self.assertIn("0123abc", check_results.check_commits(self.root)[0][0])
         self.runs(("tracking.csv log.txt", self.git("rev-parse", "HEAD~1"), "run"))
-        self.assertEqual(check_results.check_commits(self.root), ([], ""))
+        self.assertEqual(check_results.check_commits(self.root)[0], [])
 
-    def test_a_shallow_clone_says_that_it_cannot_know(self):
+    def test_a_shallow_clone_fails_with_the_remedy(self):
         self.repository()
         self.runs(("tracking.csv log.txt", self.git("rev-parse", "HEAD~1"), "run"))
         self.git("add", "-A")
         self.git("commit", "-q", "-m", "third")
         with tempfile.TemporaryDirectory() as clone:
             self.git("clone", "-q", "--depth", "1", f"file://{self.root}", clone)
-            faults, reason = check_results.check_commits(pathlib.Path(clone))
-        self.assertIsNone(faults)
-        self.assertIn("git fetch --unshallow", reason)
+            self.assertIn("git fetch --unshallow", check_results.check_commits(pathlib.Path(clone))[0][0])
 
     def test_recording_writes_the_commit_of_now(self):
         (self.root / "src").mkdir()
         self.write("src/a.cpp", "")
         self.repository()
         self.assertEqual(check_results.record(self.root, ["doc/results/log.txt"]), [])
-        self.assertEqual(check_results.check_commits(self.root), ([], ""))
+        self.assertEqual(check_results.check_commits(self.root)[0], [])
         self.write("src/a.cpp", "changed")
         self.assertIn("no.txt", check_results.record(self.root, ["log.txt", "no.txt"])[0])
         self.assertIn("+changes", check_results.check_commits(self.root)[0][0])
