@@ -28,9 +28,8 @@ set -euo pipefail
   debian_test=(
     libgtest-dev librapidcheck-dev libfcl-dev libboost-dev libbenchmark-dev
     librostest-dev python3-rostest libnodeletlib-tools
-    dart-doc  # robots of scripts/faults.sh
     git locales  # the record of results; a locale with decimal commas
-    python3-yaml  # digests of experiments in the test `results`
+    python3-yaml  # experiments of the evaluation, view_robot.py
     python3-rosmaster python3-rospy python3-tf2-msgs python3-rosgraph-msgs python3-dynamic-reconfigure  # scripts/faults.sh
     python3-sensor-msgs  # pick_parts.py
     python3-matplotlib  # examples/plot_niches.py, plot_distances.py
@@ -45,7 +44,7 @@ set -euo pipefail
     python3-matplotlib  # distance_bag --plot
     python3-geometry-msgs python3-shape-msgs python3-std-msgs python3-std-srvs python3-trajectory-msgs python3-visualization-msgs python3-diagnostic-msgs  # what ours are made of
   )
-  debian_plot=(python3-matplotlib python3-yaml valgrind)
+  debian_plot=(python3-matplotlib python3-yaml valgrind dart-doc)  # the last: robots of benchmarks
   debian_format=(clang-format)
   debian_lint=(clang-format clang-tidy catkin-lint shellcheck)
   debian_doxygen=(doxygen)
