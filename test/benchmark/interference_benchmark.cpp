@@ -122,28 +122,6 @@ void timeScene(const InterferenceScene& scene, std::ofstream& csv) {
       << 1e6 * fcl.seconds << ',' << fcl.count << '\n';
 }
 
-/// What scripts/plot_interference.py draws.
-void writeRegions(const InterferenceScene& scene, std::ofstream& csv) {
-  InterferenceWorkspace workspace;
-  Interference result;
-  findInterference(*test::makeBody(scene.pair.a), *test::makeBody(scene.pair.b), scene.pair.a_from_b,
-                   workspace, result);
-  csv << "table,scene,x,y,z,qx,qy,qz,qw\npose," << scene.name;
-  const Eigen::Quaterniond rotation(scene.pair.a_from_b.linear());
-  for (int k = 0; k < 3; ++k) csv << ',' << scene.pair.a_from_b.translation()[k];
-  csv << ',' << rotation.x() << ',' << rotation.y() << ',' << rotation.z() << ',' << rotation.w() << '\n';
-  csv << "table,scene,depth,contact_area,volume,cx,cy,cz,nx,ny,nz,ax,ay,az,bx,by,bz\n";
-  for (const InterferenceRegion& region : result.regions) {
-    csv << "region," << scene.name << ',' << region.depth_along_normal << ',' << region.contact_area << ','
-        << region.volume;
-    for (const Eigen::Vector3d* v : {&region.centroid_in_a, &region.normal_in_a, &region.along_normal_a_in_a,
-                                     &region.along_normal_b_in_a}) {
-      for (int k = 0; k < 3; ++k) csv << ',' << (*v)[k];
-    }
-    csv << '\n';
-  }
-}
-
 void compareHalvings(const InterferenceScene& scene, std::ofstream& csv) {
   SurfaceMesh a = scene.pair.a;
   SurfaceMesh b = scene.pair.b;
@@ -216,9 +194,6 @@ int benchmarkMain(int argc, char** argv) {
          "depth_3\n";
   for (const InterferenceScene& scene : scenes) {
     if (scene.pair.a.triangleCount() < 5000 && scene.name != "combs") compareHalvings(scene, csv);
-  }
-  for (const InterferenceScene& scene : scenes) {
-    if (scene.name == "battery pushed") writeRegions(scene, csv);
   }
   return 0;
 }
