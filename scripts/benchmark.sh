@@ -79,8 +79,8 @@ if [ -n "$(program cycle_benchmark)" ]; then  # built with ROS only
   robots=/usr/share/doc/dart/data
   if [ -d "$robots" ]; then
     atlas=$robots/sdf/atlas/atlas_v3_no_head.urdf hubo=$robots/urdf/drchubo/drchubo.urdf
-    "$root/scripts/write_srdf.py" "$atlas" 168 >"$root/build/atlas.srdf"
-    "$root/scripts/write_srdf.py" "$hubo" 768 >"$root/build/drchubo.srdf"
+    "$root/test/benchmark/write_srdf.py" "$atlas" 168 >"$root/build/atlas.srdf"
+    "$root/test/benchmark/write_srdf.py" "$hubo" 768 >"$root/build/drchubo.srdf"
     scenes+=("$robots/urdf/KR5/KR5 sixx R650.urdf" "$atlas,$root/build/atlas.srdf" "$hubo,$root/build/drchubo.srdf")
   else
     echo "no robots in motion: apt-get install dart-doc" >&2

@@ -1,12 +1,19 @@
 #!/usr/bin/env bash
 # Builds the package into build/ without a workspace; programs end in build/devel/lib/concave_distance.
 #   scripts/build.sh [demo|programs|all] [cmake options ...]
+#   scripts/build.sh tables    after `all`: writes the tables of parameters in documents and config/ConcaveDistance.cfg
 # demo: the node, the messages and the demos' programs; programs (default): the tools too; all: tests, benchmarks and
 # the thesis (CONCAVE_DISTANCE_WITH_THESIS) too.
 set -euo pipefail
 # shellcheck source=scripts/common.sh
 . "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 source_ros
+
+if [ "${1:-}" = tables ]; then
+  export CONCAVE_DISTANCE_WRITE_TABLES=1
+  "$build_dir/test/bin/ros_tests" --gtest_filter='ParameterDocumentation.*'
+  exec "$build_dir/test/bin/thesis_tests" --gtest_filter='CombGaParameters.*Document'
+fi
 
 what=programs
 case "${1:-}" in

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs what the package needs from the distribution's packages, only what is missing.
-#   scripts/install_dependencies.sh [node] [build] [test] [demo] [plot] [format] [lint] [fuzz] [sanitize] [engines] [doxygen]  (default: build test demo)
+#   scripts/install_dependencies.sh [node] [build] [test] [demo] [plot] [format] [lint] [fuzz] [sanitize] [engines]  (default: build test demo)
 #   scripts/install_dependencies.sh --print debian|noetic GROUP ...    the packages' names, a line each; nothing is installed
 # node: for building the node; build: for building the other programs too.
 # Debian 12 has everything in its main archive. Ubuntu 20.04 needs the ROS Noetic archive set up beforehand.
@@ -47,7 +47,6 @@ set -euo pipefail
   debian_plot=(python3-matplotlib python3-yaml valgrind dart-doc)  # the last: robots of benchmarks
   debian_format=(clang-format)
   debian_lint=(clang-format clang-tidy catkin-lint shellcheck)
-  debian_doxygen=(doxygen)
   debian_fuzz=(clang libclang-rt-14-dev)  # libFuzzer is in the second
   debian_sanitize=(dpkg-dev)  # unpacks the source package of TBB
   debian_engines=(libsimbody-dev libode-dev libbullet-dev)  # engine_table, examples/arm_and_shelf
@@ -76,7 +75,6 @@ set -euo pipefail
   noetic_plot=(python3-matplotlib python3-yaml valgrind)
   noetic_format=(clang-format)
   noetic_lint=(clang-format clang-tidy shellcheck)
-  noetic_doxygen=(doxygen)
   noetic_fuzz=(clang)
   noetic_sanitize=(dpkg-dev)
   noetic_engines=(libsimbody-dev libode-dev)
@@ -108,11 +106,11 @@ groups=("$@")
 wanted=()
 for group in "${groups[@]}"; do
   case "$group" in
-    node | build | test | demo | plot | format | lint | fuzz | sanitize | engines | doxygen)
+    node | build | test | demo | plot | format | lint | fuzz | sanitize | engines)
       declare -n packages="${family}_${group}"
       wanted+=("${packages[@]}")
       ;;
-    *) die "unknown group '$group': expected node, build, test, demo, plot, format, lint, fuzz, sanitize, engines or doxygen" ;;
+    *) die "unknown group '$group': expected node, build, test, demo, plot, format, lint, fuzz, sanitize or engines" ;;
   esac
 done
 

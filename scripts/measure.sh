@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Measures one thing with a finished build (scripts/build.sh all) and writes its files of doc/results.
 #   scripts/measure.sh node [OPTIONS] [SCENES]   the node on moving scenes, from outside (node_timing.txt; below)
-#   scripts/measure.sh clouds [OPTIONS]          clouds of a camera in a running node (scripts/measure_clouds.py --help)
+#   scripts/measure.sh clouds [OPTIONS]          clouds of a camera in a running node (scripts/measure_clouds.py)
 #   scripts/measure.sh numerics                  worst errors beside 100 digits, ten minutes (numerics.txt)
 #   scripts/measure.sh rows                      what all rows are worth beside the nearest one (rows*.csv, pictures)
 #   scripts/measure.sh simulation                the contact scenes of config/ (simulation.txt, two_feet.csv, pictures)
@@ -154,7 +154,7 @@ measure_robot() { # <URDF> <pairs>
   [ -f "$1" ] || die "$1 is missing: apt-get install dart-doc"
   local srdf
   srdf="$build_dir/$(basename "$1" .urdf).srdf"
-  scripts/write_srdf.py "$1" "$2" >"$srdf"
+  test/benchmark/write_srdf.py "$1" "$2" >"$srdf"
   measure_scene "$(basename "$1" .urdf), $2 pairs at 50 Hz" distances+markers -1 own_robot.launch urdf:="$1" srdf:="$srdf" \
     joints:=sway rate:=50
 }

@@ -61,7 +61,7 @@ inline void expectText(const std::string& name, const std::string& before, const
   if (std::getenv("CONCAVE_DISTANCE_WRITE_TABLES") != nullptr) {
     std::ofstream(pathOf(name)) << made;
   } else {
-    EXPECT_EQ(before, made) << name << ": run scripts/write_parameter_tables.sh";
+    EXPECT_EQ(before, made) << name << ": run scripts/build.sh tables";
   }
 }
 

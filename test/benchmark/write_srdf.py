@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Prints an SRDF that leaves a robot so many pairs of links: those farthest from each other along its joints.
 
-    scripts/write_srdf.py URDF PAIRS > robot.srdf
+    test/benchmark/write_srdf.py URDF PAIRS > robot.srdf
 
 Only links with collision geometry count, and links joined by fixed joints or by one joint are no pair, as in the node.
 """
