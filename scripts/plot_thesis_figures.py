@@ -1,25 +1,27 @@
 #!/usr/bin/python3
 """Draws the thesis's pictures of bodies: solutions 2.19 to 2.35, populations 4.6, 4.8 and 4.12, best points 5.6, partitions
-6.1 to 6.3, and the poses 6.5 (evaluation_figure_*.png).
+6.1 to 6.3, and the poses 6.5 (evaluation_figure_*.png); without RESULTS thesis/doc/images/partition.png, the convex pieces of the
+battery and the fixture, and partition_crossing.png, the cost of a step over the number of sub-pairs from doc/results/partition.csv.
 
-    scripts/plot_thesis_figures.py RESULTS [MORE_RESULTS ...] [--output doc/results/images]
+    scripts/plot_thesis_figures.py [RESULTS ...] [--output doc/results/images]
 
 RESULTS are folders that `evaluate --output` or `keep_rows.py` has filled: pictures up to 5.6 are drawn from *_points.csv,
-and left out where it is missing. Figures 6.1 to 6.3 need a finished build for thesis_tool with CGAL.
+and left out where it is missing. Pieces need a finished build for thesis_tool with CGAL.
 Needs python3-matplotlib: scripts/install_dependencies.sh plot.
 """
 import argparse
+import csv
 import pathlib
-import subprocess
+import sys
 import tempfile
 
 import matplotlib
 
+from evaluation.pieces import automatic_pieces, draw_pieces, read_pieces, thesis_tool
 from evaluation.solution_figures import plot_pictures
 from geometry import poses, thesis_solids
 from geometry.manoeuvre import APPROACH
 from geometry.solid import Solid, write_binary_stl
-from plot_partition import draw_pieces, read_pieces
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402  (the backend comes first)
@@ -27,6 +29,7 @@ import numpy as np  # noqa: E402
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 MESHES = ROOT / "meshes" / "thesis"
+IMAGES = ROOT / "thesis" / "doc" / "images"
 ROUNDING = 1e-16  # metres: what is less is none
 
 
@@ -61,8 +64,7 @@ def deepest_dent(pieces):
 
 
 def plot_partitions(images):
-    tool = next((path for path in sorted((ROOT / "build").rglob("thesis_tool")) if path.is_file()), None)
-    if tool is None:
+    if thesis_tool() is None:
         print("thesis_tool is not built: figures 6.1 to 6.3 are left out")
         return
     solids = [("6_1", holed_block(22), (0.5, 0.5, 0.5), 42, -60), ("6_2", slotted_block(), (0.35, 0.35, 0.35), 38, -62),
@@ -70,10 +72,9 @@ def plot_partitions(images):
     for number, solid, spread, elevation, azimuth in solids:
         vertices, triangles = solid.mesh()
         with tempfile.TemporaryDirectory() as folder:
-            mesh, output = pathlib.Path(folder) / "body.stl", pathlib.Path(folder) / "pieces.obj"
+            mesh = pathlib.Path(folder) / "body.stl"
             write_binary_stl(mesh, vertices, triangles, solid.name)
-            subprocess.run([str(tool), "partition", str(mesh), str(output)], check=True, stdout=subprocess.DEVNULL)
-            pieces = read_pieces(output)
+            pieces = automatic_pieces(mesh, folder)
         figure = plt.figure(figsize=(11, 4.8))
         whole = [(vertices, [list(triangle) for triangle in triangles])]
         for place, (shown, apart, title) in enumerate((
@@ -115,11 +116,59 @@ def save(figure, path):
     print(path)
 
 
+def plot_pieces():
+    """The pieces of the battery and the fixture, by hand and automatic."""
+    if thesis_tool() is None:
+        sys.exit("thesis_tool is not built: run scripts/build.sh all")
+    figure = plt.figure(figsize=(12, 8.5))
+    with tempfile.TemporaryDirectory() as folder:
+        for row, (body, spread, elevation, azimuth) in enumerate((("battery", (0.7, 0.7, 0.7), 38, -65),
+                                                                  ("fixture", (0.15, 0.15, 0.9), 24, -60))):
+            for column, kind in enumerate(("by hand", "automatic")):
+                pieces = read_pieces(MESHES / f"{body}_pieces.obj") if column == 0 else automatic_pieces(MESHES / f"{body}.stl", folder)
+                axes = figure.add_subplot(2, 2, 2 * row + column + 1, projection="3d", computed_zorder=False)
+                draw_pieces(axes, pieces, f"{body}, {kind}: {len(pieces)} pieces", spread, elevation, azimuth)
+    figure.subplots_adjust(left=0.0, right=1.0, bottom=0.0, top=0.95, wspace=0.0, hspace=0.05)
+    save(figure, IMAGES / "partition.png")
+
+
+def plot_crossing():
+    path = ROOT / "doc" / "results" / "partition.csv"
+    with open(path, newline="", encoding="utf-8") as file:
+        rows = [row for row in csv.DictReader(file) if row["partition"] != "automatic"]
+    sizes = {(row["hole_facets"], row["protrusions"]): int(row["sub_pairs"]) for row in rows
+             if row["partition"] == "hand"}
+    figure, axes = plt.subplots(figsize=(10.5, 5.5), layout="constrained")
+    styles = (("QP, warm", "o-", "all sub-pairs, QP, warm"), ("GJK", "o-", "all sub-pairs, GJK"),
+              ("QP, warm, culled", ".:", "culled, QP, warm"), ("GJK, culled", ".:", "culled, GJK"),
+              ("hybrid: nodes + QP", "^--", "hybrid: nodes, then QP"), ("nodes", "s-", "search, nodes"),
+              ("certified", "d-", "search, certified, with niches"),
+              ("certified, distance only", "x-", "certified, distance only"))
+    for method, style, label in styles:
+        points = sorted((sizes[row["hole_facets"], row["protrusions"]], float(row["mean_us"])) for row in rows
+                        if row["method"] == method)
+        axes.plot([p[0] for p in points], [p[1] for p in points], style, label=label, markersize=5)
+    axes.axvline(150, color="black", linewidth=0.8)
+    axes.set_xscale("log")
+    axes.set_yscale("log")
+    axes.text(155, 1.15 * axes.get_ylim()[0], "the thesis's guess: 150", fontsize=9)
+    axes.set_xlabel("sub-pairs of the partition by hand")
+    axes.set_ylabel("microseconds a step, mean of the manoeuvre's 200")
+    axes.grid(alpha=0.3, which="both")
+    axes.legend(loc="upper left", bbox_to_anchor=(1.01, 1.0))
+    axes.set_title("Battery into fixture: partition against search")
+    save(figure, IMAGES / "partition_crossing.png")
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("results", nargs="+", type=pathlib.Path)
+    parser.add_argument("results", nargs="*", type=pathlib.Path)
     parser.add_argument("--output", default=ROOT / "doc" / "results" / "images", type=pathlib.Path)
     options = parser.parse_args()
+    if not options.results:
+        plot_pieces()
+        plot_crossing()
+        return
     options.output.mkdir(parents=True, exist_ok=True)
     plot_pictures(options.results, options.output)
     plot_partitions(options.output)
