@@ -40,7 +40,6 @@ set(CONCAVE_DISTANCE_SERVICES
   GetDistances.srv
   GetScene.srv
   ListBodies.srv
-  RecordPair.srv
   Reload.srv
   RemoveBody.srv
   ResetTracking.srv

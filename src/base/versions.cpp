@@ -3,6 +3,7 @@
 #include <gnu/libc-version.h>
 
 #include <Eigen/Core>
+#include <utility>
 #if __has_include(<tbb/version.h>)
 #include <tbb/version.h>
 #else
@@ -15,7 +16,7 @@ std::string packageVersion() {
   return CONCAVE_DISTANCE_VERSION;
 }
 
-std::vector<std::pair<std::string, std::string>> buildVersions() {
+std::string versionsText() {
   const auto joined = [](int major, int minor) {
     return std::to_string(major) + "." + std::to_string(minor);
   };
@@ -31,18 +32,15 @@ std::vector<std::pair<std::string, std::string>> buildVersions() {
 #else
   const std::string processor = "other";
 #endif
-  return {
+  const std::pair<const char*, std::string> versions[] = {
       {"concave_distance", packageVersion()},
       {"compiler", compiler},
       {"processor", processor},
       {"Eigen", std::to_string(EIGEN_WORLD_VERSION) + "." + joined(EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)},
       {"TBB", joined(TBB_VERSION_MAJOR, TBB_VERSION_MINOR)},
       {"C library", gnu_get_libc_version()}};
-}
-
-std::string versionsText() {
   std::string text;
-  for (const auto& [part, version] : buildVersions()) {
+  for (const auto& [part, version] : versions) {
     if (!text.empty()) text += '\n';
     text.append(part).append(" ").append(version);
   }

@@ -1,7 +1,5 @@
 #include "scene_files.h"
 
-#include <unistd.h>
-
 #include <filesystem>
 #include <fstream>
 #include <memory>
@@ -14,8 +12,6 @@ namespace concave_distance::detail {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr const char* kNoFolder = "no folder is known in which anything may be saved";
 
 // Only a file that an earlier save has written may be replaced.
 void requireReplaceable(const std::string& path, bool overwrite) {
@@ -45,63 +41,22 @@ std::string pathBelow(const std::string& folder, const std::string& path) {
   const fs::path given(path);
   if (given.extension() != ".yaml" || given.stem().empty())
     throw Error("path", "it is '" + path + "'", "name a file that ends in .yaml");
-  if (folder.empty()) throw Error("path", kNoFolder, "set ~save_folder, or write what get_scene answers");
-  return placeBelow(folder, path, "path");
-}
-
-std::string placeBelow(const std::string& folder, const std::string& path, const std::string& field) {
-  if (folder.empty()) throw Error(field, kNoFolder, "set ~save_folder, and start the node again");
-  const fs::path given(path);
-  if (given.filename().empty() || given.filename() == "." || given.filename() == "..")
-    throw Error(field, "it is '" + path + "'", "end it with a name");
+  if (folder.empty()) {
+    throw Error("path", "no folder is known in which anything may be saved",
+                "set ~save_folder, or write what get_scene answers");
+  }
   std::error_code failure;
   const fs::path root = fs::canonical(folder, failure);
   if (failure)
     throw Error("~save_folder", "there is no folder '" + folder + "'", "create it, or name another");
   const fs::path parent = fs::canonical(root / given.parent_path(), failure);
   if (failure)
-    throw Error(field, "there is no folder '" + (root / given.parent_path()).string() + "'", "create it");
+    throw Error("path", "there is no folder '" + (root / given.parent_path()).string() + "'", "create it");
   if (parent != root && !isBelow(parent, root)) {
-    throw Error(field, "'" + path + "' is not below '" + root.string() + "'",
-                "name a place below it, or set ~save_folder");
+    throw Error("path", "'" + path + "' is not below '" + root.string() + "'",
+                "name a file below it, or set ~save_folder");
   }
   return (parent / given.filename()).string();
-}
-
-void requireAbsent(const std::string& folder) {
-  std::error_code ignored;
-  if (fs::exists(fs::symlink_status(folder, ignored)))
-    throw Error(folder, "it is there already", "name another folder, or none: then a name is made");
-}
-
-std::vector<std::string> writeFolder(const std::string& folder, const std::vector<SavedFile>& files) {
-  requireAbsent(folder);
-  const fs::path target(folder);
-  const fs::path partial =
-      target.parent_path() / ("." + target.filename().string() + "." + std::to_string(getpid()));
-  std::error_code failure;
-  if (!fs::create_directory(partial, failure)) {
-    throw Error(folder,
-                "the folder cannot be written: " + (failure ? failure.message() : "it is being written"),
-                "check the folder above it and its permissions");
-  }
-  std::vector<std::string> paths;
-  try {
-    for (const SavedFile& file : files) {
-      OutputFile output((partial / file.name).string());
-      output.stream() << file.text;
-      output.finish();
-      paths.push_back((target / file.name).string());
-    }
-    requireAbsent(folder);
-    fs::rename(partial, target);
-  } catch (const std::exception& problem) {
-    std::error_code ignored;
-    fs::remove_all(partial, ignored);
-    throw Error(folder, std::string("nothing was written: ") + problem.what(),
-                "check the disk, or name another folder");
-  }
-  return paths;
 }
 
 std::string stemOf(const std::string& path) {

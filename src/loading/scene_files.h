@@ -13,19 +13,6 @@ namespace concave_distance::detail {
 /// empty
 std::string pathBelow(const std::string& folder, const std::string& path);
 
-/// Returns the place of a file or folder that a request writes, below `folder`, likewise.
-/// @param field of the request, for messages
-/// @throws Error when it has no name, or is not below the folder; when the folder is empty
-std::string placeBelow(const std::string& folder, const std::string& path, const std::string& field);
-
-/// @throws Error when there is a file or folder of this name
-void requireAbsent(const std::string& folder);
-
-/// Writes a new folder with these files, or nothing.
-/// @return the paths written
-/// @throws Error when it is there already, and when a file cannot be written
-std::vector<std::string> writeFolder(const std::string& folder, const std::vector<SavedFile>& files);
-
 /// Writes a saved scene: all its files, each complete, or none. The scene file comes last.
 /// @param path of the scene file; the others are written beside it
 /// @param overwrite an existing scene file that save_scene has written is replaced

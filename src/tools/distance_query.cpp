@@ -1,8 +1,6 @@
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <chrono>
 #include <iostream>
-#include <iterator>
 #include <memory>
 #include <optional>
 #include <ostream>
@@ -21,7 +19,6 @@
 #include "loading/query_poses.h"
 #include "parameter_options.h"
 #include "query_report.h"
-#include "replay.h"
 #include "scene/pair_parameters.h"
 #include "scene_options.h"
 #include "tracking/tracker_parameter_table.h"
@@ -48,7 +45,6 @@ struct DistanceQueryOptions {
   bool tracking = false;
   std::string output;
   std::string niches_output;  ///< empty: niches are not asked for
-  std::string replay;         ///< folder of a recording; empty: none
 };
 
 /// Keys the random streams: fixed, so that an answer depends on the meshes, the pose and the seed alone.
@@ -173,36 +169,16 @@ void refuseOnUnprovenLevels(const CLI::App& app, const std::string& option, Accu
                                          " proves no bound; leave it out or ask for --accuracy certified");
 }
 
-constexpr const char* kReplayOption = "--replay";
-constexpr const char* kOutputOptions[] = {"--output", "--niches-output"};
-
-/// A recording has all that these options say; without one, some of them are needed.
-void checkOptions(const CLI::App& app) {
-  const bool is_replay = app.count(kReplayOption) > 0;
-  for (const CLI::Option* option : app.get_options()) {
-    const std::string name = option->get_name();
-    const bool is_output =
-        std::find(std::begin(kOutputOptions), std::end(kOutputOptions), name) != std::end(kOutputOptions);
-    if (is_replay && !is_output && name != kReplayOption && option->count() > 0)
-      throw CLI::ValidationError(name,
-                                 std::string("the recording says it; leave it out with ") + kReplayOption);
-  }
-  for (const std::string name : {"--mesh-a", "--mesh-b", "--poses", "--output"}) {
-    if (!is_replay && app.count(name) == 0) throw CLI::RequiredError(name);
-  }
-}
-
 void addOptions(CLI::App& app, DistanceQueryOptions& options) {
-  app.add_option("--mesh-a", options.mesh_a, "body A (.stl, .obj, .ply, .dae)")->type_name("FILE");
-  app.add_option("--mesh-b", options.mesh_b, "body B")->type_name("FILE");
+  app.add_option("--mesh-a", options.mesh_a, "body A (.stl, .obj, .ply, .dae)")
+      ->required()
+      ->type_name("FILE");
+  app.add_option("--mesh-b", options.mesh_b, "body B")->required()->type_name("FILE");
   app.add_option("--poses", options.poses,
                  std::string("header t,x,y,z,qx,qy,qz,qw or ") + kMatrixPoseHeader +
                      "; a query a line: pose of B in A's frame")
+      ->required()
       ->type_name("FILE");
-  app.add_option(kReplayOption, options.replay,
-                 "folder that record_pair has written, in place of meshes, poses and settings: says whether "
-                 "its answers are the same, bit for bit")
-      ->type_name("DIR");
   app.add_option("--scale-a", options.scale_a,
                  "factor on A's coordinates (0.001: the file is in millimetres)")
       ->capture_default_str();
@@ -235,6 +211,7 @@ void addOptions(CLI::App& app, DistanceQueryOptions& options) {
          "--output", options.output,
          "index,distance,lower_bound,ax,ay,az,bx,by,bz,niche_count,status,time_us,triangle_a,triangle_b; "
          "with margins and signed_distance")
+      ->required()
       ->type_name("FILE");
   app.add_option(
          "--niches-output", options.niches_output,
@@ -249,20 +226,17 @@ int run(int argc, char** argv) {
                "distance_query");
   app.footer(
       "An empty cell was not computed. Status: ok, tolerance, budget, memory, penetrating, invalid_pose.\n"
-      "Exit status: 0 done, 1 a file is at fault, 2 the command line is, 3 a replay has other answers.");
+      "Exit status: 0 done, 1 a file is at fault, 2 the command line is.");
   app.set_version_flag("--version", versionsText());
   addOptions(app, options);
   try {
     app.parse(argc, argv);
-    checkOptions(app);
     for (const std::string option : {kToleranceOption, "--relative-tolerance"}) {
       refuseOnUnprovenLevels(app, option, options.settings.tracker.accuracy);
     }
   } catch (const CLI::ParseError& error) {
     return reportParseError(app, error);
   }
-  if (!options.replay.empty())
-    return replayRecord(options.replay, options.output, options.niches_output, std::cout);
   runDistanceQuery(options, std::cerr);
   return 0;
 }

@@ -384,6 +384,14 @@ TEST_F(DistanceQuery, RefusesWhatThisVersionCannotDo) {
   EXPECT_EQ(runBoxes("--max-edge 0"), 2);
   EXPECT_EQ(runBoxes("--cutoff -1"), 2);
   EXPECT_EQ(run("--mesh-a box.stl"), 2);
+  EXPECT_NE(log().find("--mesh-b is required"), std::string::npos) << log();
+}
+
+TEST_F(DistanceQuery, PrintsItsVersions) {
+  EXPECT_EQ(run("--version"), 0);
+  EXPECT_EQ(log().find("concave_distance "), 0U) << log();
+  for (const char* part : {"\ncompiler ", "\nEigen 3.", "\nTBB ", "\nC library "})
+    EXPECT_NE(log().find(part), std::string::npos) << log();
 }
 
 TEST_F(DistanceQuery, RefusesAnOutputThatIsAnInputOrTheOtherOutputAndWritesNothing) {

@@ -43,13 +43,12 @@ std::vector<std::string> failingPairs(const PublishedPairs& pairs) {
 }  // namespace
 
 CycleRunner::CycleRunner(TransformBuffer& transforms, SceneStore& keeper, TopicPublishers& publishers,
-                         RestartRequests& restarts, PairRecorder& recorder, const CycleOptions& options,
+                         RestartRequests& restarts, const CycleOptions& options,
                          const std::optional<double>& cycle_budget)
     : transforms_(transforms),
       keeper_(keeper),
       publishers_(publishers),
       restarts_(restarts),
-      recorder_(recorder),
       cycle_budget_(cycle_budget),
       cycle_(transforms, options),
       timer_([this](std::int64_t due) {
@@ -152,7 +151,6 @@ CycleRecord CycleRunner::runCycle(ros::Time now, WorkLimit::Clock::time_point st
                           std::max(kMarkerPeriods / marker_rate, kShortestMarkerLife), now);
   publishers_.publishConstraints(
       {cycle_.trackedPairs(), cycle_.frames(), *transforms_.current(), cycle_.others()}, now);
-  recorder_.record(cycle_.trackedPairs(), static_cast<std::int64_t>(cycle_.frames().epoch().toNSec()));
   record.latency = published.latency;
   record.messages = published.messages;
   record.markers = published.markers;

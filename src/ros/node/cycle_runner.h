@@ -13,7 +13,6 @@
 #include "ros/topics/scene_store.h"
 #include "ros/topics/topic_publishers.h"
 #include "scene/cycle_statistics.h"
-#include "scene/pair_recorder.h"
 #include "scene/restart_requests.h"
 
 namespace concave_distance {
@@ -23,7 +22,7 @@ namespace concave_distance {
 class CycleRunner {
  public:
   CycleRunner(TransformBuffer& transforms, SceneStore& keeper, TopicPublishers& publishers,
-              RestartRequests& restarts, PairRecorder& recorder, const CycleOptions& options,
+              RestartRequests& restarts, const CycleOptions& options,
               const std::optional<double>& cycle_budget);
   CycleRunner(const CycleRunner&) = delete;
   CycleRunner& operator=(const CycleRunner&) = delete;
@@ -50,7 +49,6 @@ class CycleRunner {
   SceneStore& keeper_;
   TopicPublishers& publishers_;
   RestartRequests& restarts_;
-  PairRecorder& recorder_;
   CycleStatistics statistics_;
   std::optional<double> cycle_budget_;  ///< s, as NodeParameters::cycle_budget
   std::atomic<double> rate_{50.0};

@@ -22,7 +22,6 @@
 #include "ros/services/distance_queries.h"
 #include "ros/services/move_receiver.h"
 #include "ros/services/operation_services.h"
-#include "ros/services/record_service.h"
 #include "ros/services/scene_services.h"
 #include "ros/services/state_services.h"
 #include "ros/tf/transform_buffer.h"
@@ -94,8 +93,6 @@ class DistanceServer {
   StateServices state_services_;
   MoveReceiver moves_;
   CloudReceivers clouds_;
-  PairRecorder recorder_;
-  RecordService record_service_;
   CycleRunner runner_;
   diagnostic_updater::Updater updater_;
   CycleWindow window_;  ///< of the diagnostics being published

@@ -58,7 +58,7 @@ ParameterTable<N> ofTheScene() {
           "what](security.md#mesh-files))"),
       text<N>(
           "save_folder", "a path, or `off`", [](auto& n) -> auto& { return n.save_folder; },
-          "folder below which `save_scene` and `record_pair` may write; empty: that of the scene file"),
+          "folder below which `save_scene` may write; empty: that of the scene file"),
   };
 }
 
@@ -140,12 +140,6 @@ ParameterTable<N> ofTheCycle() {
           .inUnit("s")
           .from(0.05)
           .to(3600.0),
-      count<N>(
-          "record_length", [](auto& n) -> auto& { return n.record_length; },
-          "cycles of each tracked pair that are kept for [record_pair](support_case.md), 136 bytes each; 0: "
-          "none")
-          .to(100000.0)
-          .forExperts(),
   };
 }
 

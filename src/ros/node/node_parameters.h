@@ -51,8 +51,6 @@ struct NodeParameters {
   MarkerStyle marker;
   ConstraintOptions constraints;
   double diagnostic_period = 1.0;  ///< s
-  /// Cycles of each pair that record_pair may write; 0: none are kept.
-  std::uint32_t record_length = 200;
   NodeLimits limits;
 };
 
