@@ -50,7 +50,7 @@ results="$build_dir/fresh_test_results"
 rm -rf "$results"
 mkdir -p "$results"
 say "seed $seed, $cases cases each"
-export RC_PARAMS="seed=$seed max_success=$cases" XDG_CACHE_HOME="$build_dir/test_cache"
+export RC_PARAMS="seed=$seed max_success=$cases"
 export CONCAVE_DISTANCE_FRESH_SEED="$seed" CONCAVE_DISTANCE_FRESH_CASES="$cases"
 passed=0
 failed=0

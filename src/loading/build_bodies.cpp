@@ -99,13 +99,11 @@ void checkExtent(const SurfaceMesh& surface, const BodySource& source) {
 }
 
 std::shared_ptr<const BodyMesh> sharedMesh(const BodySource& source, SurfaceMesh surface,
-                                           const std::shared_ptr<BodyPool>& pool,
-                                           const PreparationCachePointer& cache, const SceneLimits& limits) {
+                                           const std::shared_ptr<BodyPool>& pool, const SceneLimits& limits) {
   BodyMeshOptions options;
   options.max_edge_length = source.max_edge_length;
   options.largest_node_count = limits.nodes;
   options.metric_memory = pool->metricMemory();
-  options.cache = cache;
   options.shape = roundShapeOf(source.geometry);
   const ContentKey key = bodyKey(surfaceKey(surface), options);
   return pool->share(key, [&] {
@@ -129,23 +127,22 @@ std::optional<ContentKey> sourceKey(const std::optional<ContentKey>& geometry, c
 
 // Files may change until they are read, which the key of what was read tells.
 RepairedBody load(const BodySource& source, const std::shared_ptr<BodyPool>& pool,
-                  const PreparationCachePointer& cache, const SceneLimits& limits) {
+                  const SceneLimits& limits) {
   if (const auto key = sourceKey(geometryKey(source.geometry), source, limits)) {
     if (std::optional<RepairedBody> known = pool->findRepaired(*key)) return std::move(*known);
   }
-  KeyedMesh keyed = loadGeometry(source.geometry, source.source, cache.get());
+  KeyedMesh keyed = loadGeometry(source.geometry, source.source);
   checkTriangleCount(keyed.repaired.mesh.triangleCount(), source, limits);
   checkExtent(keyed.repaired.mesh, source);
   RepairedBody made{nullptr, keyed.repaired.report};
-  made.mesh = sharedMesh(source, std::move(keyed.repaired.mesh), pool, cache, limits);
+  made.mesh = sharedMesh(source, std::move(keyed.repaired.mesh), pool, limits);
   if (const auto key = sourceKey(keyed.key, source, limits)) pool->insertRepaired(*key, made);
   return made;
 }
 
-SceneBody build(const BodySource& source, const std::shared_ptr<BodyPool>& pool,
-                const PreparationCachePointer& cache, const SceneLimits& limits) {
+SceneBody build(const BodySource& source, const std::shared_ptr<BodyPool>& pool, const SceneLimits& limits) {
   checkTriangleCount(givenTriangles(source), source, limits);
-  const RepairedBody loaded = load(source, pool, cache, limits);
+  const RepairedBody loaded = load(source, pool, limits);
   SceneBody body = source;
   body.repair = loaded.report;
   body.mesh = loaded.mesh;
@@ -160,9 +157,8 @@ std::vector<BuiltBody> buildBodies(std::vector<BodySource> sources, const BuildO
   std::vector<BuiltBody> built(sources.size());
   if (options.progress != nullptr) options.progress->begin(sources.size());
   locateAll(sources, options, built);
-  forEachBody(built, options.progress, [&](std::size_t i) {
-    built[i].body = build(sources[i], options.pool, options.cache, options.limits);
-  });
+  forEachBody(built, options.progress,
+              [&](std::size_t i) { built[i].body = build(sources[i], options.pool, options.limits); });
   for (std::size_t i = 0; i < sources.size(); ++i) {
     if (!built[i].body) continue;
     for (const std::string& note :

@@ -31,13 +31,12 @@ struct BuildOptions {
   PackageLocator package_locator;
   std::vector<std::string> mesh_search_path;
   std::shared_ptr<BodyPool> pool;    ///< not nullptr
-  PreparationCachePointer cache;     ///< nullptr: none
   SceneLimits limits;                ///< only those of one body apply
   LoadProgress* progress = nullptr;  ///< nullptr: none
 };
 
-/// Loads all bodies, in parallel; one result per source, in their order, the same for any number of threads
-/// and any content of the cache. Never throws for a body: its problem says what is wrong.
+/// Loads all bodies, in parallel; one result per source, in their order, the same for any number of threads.
+/// Never throws for a body: its problem says what is wrong.
 std::vector<BuiltBody> buildBodies(std::vector<BodySource> sources, const BuildOptions& options);
 
 }  // namespace concave_distance::detail

@@ -8,7 +8,6 @@
 #include "concave_distance/base/error.h"
 #include "concave_distance/mesh/import/import_mesh.h"
 #include "mesh/import/mesh_file.h"
-#include "mesh/repaired_mesh_cache.h"
 #include "mesh/surface/primitive_table.h"
 #include "mesh/surface/round_geometry.h"
 
@@ -79,46 +78,6 @@ bool addElement(ContentHasher& hasher, const GeometryElement& element, const std
   return true;
 }
 
-ContentHasher hasherOf(const RepairOptions& options) {
-  ContentHasher hasher = preparationHasher();
-  addRepairOptions(hasher, options);
-  return hasher;
-}
-
-std::optional<ContentKey> keyOf(const std::vector<GeometryElement>& elements, const RepairOptions& options) {
-  ContentHasher hasher = hasherOf(options);
-  for (const GeometryElement& element : elements) {
-    if (!addElement(hasher, element, openElement(element))) return std::nullopt;
-  }
-  return hasher.key();
-}
-
-/// Each file is open from its import until it has been added to the key.
-KeyedMesh makeSurface(const std::vector<GeometryElement>& elements, const RepairOptions& options,
-                      const std::string& where) {
-  TriangleSoup body;
-  bool has_key = true;
-  ContentHasher hasher = hasherOf(options);
-  for (const GeometryElement& element : elements) {
-    if (!element.frame_from_geometry.matrix().allFinite()) {
-      throw Error(element.where, "the pose is not finite", "give finite numbers");
-    }
-    const std::optional<MeshFile> file = openElement(element);
-    if (element.triangles) {
-      appendTransformed(body, *element.triangles, element.frame_from_geometry);
-    } else {
-      appendTransformed(
-          body,
-          file ? importMesh(*file, element.scale, element.access.limits) : soupOf(makePrimitive(element)),
-          element.frame_from_geometry);
-    }
-    has_key = has_key && addElement(hasher, element, file);
-  }
-  const bool is_one_file = elements.size() == 1 && !elements.front().mesh_resource.empty();
-  return {repairMesh(body, options, is_one_file ? elements.front().mesh_resource : where),
-          has_key ? std::optional<ContentKey>(hasher.key()) : std::nullopt};
-}
-
 }  // namespace
 
 std::string locateGeometry(GeometryElement& element, const MeshFolders& folders,
@@ -140,17 +99,36 @@ std::string locateGeometry(GeometryElement& element, const MeshFolders& folders,
 }
 
 std::optional<ContentKey> geometryKey(const std::vector<GeometryElement>& elements) {
-  return keyOf(elements, RepairOptions());
+  ContentHasher hasher;
+  for (const GeometryElement& element : elements) {
+    if (!addElement(hasher, element, openElement(element))) return std::nullopt;
+  }
+  return hasher.key();
 }
 
-KeyedMesh loadGeometry(const std::vector<GeometryElement>& elements, const std::string& where,
-                       PreparationCache* cache) {
-  const RepairOptions options;
+// Each file is open from its import until it has been added to the key.
+KeyedMesh loadGeometry(const std::vector<GeometryElement>& elements, const std::string& where) {
+  TriangleSoup body;
+  bool has_key = true;
+  ContentHasher hasher;
   for (const GeometryElement& element : elements) {
-    if (element.triangles) cache = nullptr;  // those of requests would fill it
+    if (!element.frame_from_geometry.matrix().allFinite()) {
+      throw Error(element.where, "the pose is not finite", "give finite numbers");
+    }
+    const std::optional<MeshFile> file = openElement(element);
+    if (element.triangles) {
+      appendTransformed(body, *element.triangles, element.frame_from_geometry);
+    } else {
+      appendTransformed(
+          body,
+          file ? importMesh(*file, element.scale, element.access.limits) : soupOf(makePrimitive(element)),
+          element.frame_from_geometry);
+    }
+    has_key = has_key && addElement(hasher, element, file);
   }
-  return repairedMeshThrough(
-      cache, [&] { return keyOf(elements, options); }, [&] { return makeSurface(elements, options, where); });
+  const bool is_one_file = elements.size() == 1 && !elements.front().mesh_resource.empty();
+  return {repairMesh(body, RepairOptions(), is_one_file ? elements.front().mesh_resource : where),
+          has_key ? std::optional<ContentKey>(hasher.key()) : std::nullopt};
 }
 
 std::optional<RoundShape> roundShapeOf(const std::vector<GeometryElement>& elements) {

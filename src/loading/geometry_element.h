@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
+#include "base/content_hash.h"
 #include "concave_distance/loading/mesh_roots.h"
 #include "concave_distance/loading/resource_locator.h"
-#include "concave_distance/mesh/preparation_cache.h"
+#include "concave_distance/mesh/repair/repair_mesh.h"
 #include "concave_distance/mesh/surface/round_shape.h"
-#include "mesh/repaired_mesh_cache.h"
 #include "mesh_search.h"
 
 namespace concave_distance::detail {
@@ -35,13 +35,17 @@ struct GeometryElement {
 std::string locateGeometry(GeometryElement& element, const MeshFolders& folders,
                            const PackageLocator& package_locator);
 
+/// A repaired surface with the key of the very files it was made from.
+struct KeyedMesh {
+  RepairedMesh repaired;
+  std::optional<ContentKey> key;  ///< nothing: it has none
+};
+
 /// Loads located elements and merges them into one repaired surface in the body's frame; slits of
 /// single precision are welded (kSinglePrecisionWeld), so that what is meant to be closed is.
-/// @param cache looked into first and added to; nullptr: none
 /// @return with the geometryKey() of the very files that were read
 /// @throws Error naming the element at fault: nothing of the body is served rather than a part of it
-KeyedMesh loadGeometry(const std::vector<GeometryElement>& elements, const std::string& where,
-                       PreparationCache* cache);
+KeyedMesh loadGeometry(const std::vector<GeometryElement>& elements, const std::string& where);
 
 /// Returns a key for all that loadGeometry() makes the surface from; nothing where a file does not tell it.
 /// @throws Error for a file that cannot be read, and for an element with none or two shapes

@@ -13,8 +13,7 @@ namespace concave_distance {
 
 std::vector<LoadedBody> loadBodies(const std::vector<BodyDescription>& descriptions,
                                    const std::string& base_folder, const PackageLocator& package_locator,
-                                   const std::shared_ptr<BodyPool>& pool,
-                                   const PreparationCachePointer& cache, const SceneLimits& limits) {
+                                   const std::shared_ptr<BodyPool>& pool, const SceneLimits& limits) {
   std::vector<detail::BodySource> sources;
   for (const BodyDescription& description : descriptions) {
     sources.push_back(detail::sourceOf(description, base_folder));
@@ -23,7 +22,6 @@ std::vector<LoadedBody> loadBodies(const std::vector<BodyDescription>& descripti
       std::move(sources), {package_locator,
                            {},
                            pool ? pool : std::make_shared<BodyPool>(kDefaultMetricMemoryLimit),
-                           cache,
                            limits,
                            nullptr});
   std::vector<LoadedBody> loaded(built.size());
@@ -40,9 +38,9 @@ std::vector<LoadedBody> loadBodies(const std::vector<BodyDescription>& descripti
 
 SceneBody loadBody(const BodyDescription& description, const std::string& base_folder,
                    const PackageLocator& package_locator, const std::shared_ptr<BodyPool>& pool,
-                   const PreparationCachePointer& cache, const SceneLimits& limits) {
+                   const SceneLimits& limits) {
   LoadedBody loaded =
-      std::move(loadBodies({description}, base_folder, package_locator, pool, cache, limits).front());
+      std::move(loadBodies({description}, base_folder, package_locator, pool, limits).front());
   if (loaded.problem) throw Error(*loaded.problem);
   return std::move(*loaded.body);
 }

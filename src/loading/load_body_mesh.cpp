@@ -12,7 +12,7 @@ LoadedBodyMesh loadBodyMesh(const std::string& path, double scale, const LoadMes
   element.mesh_resource = path;
   element.scale = Eigen::Vector3d::Constant(scale);
   element.access.limits = options.limits;
-  RepairedMesh repaired = detail::loadGeometry({element}, path, options.body.cache.get()).repaired;
+  RepairedMesh repaired = detail::loadGeometry({element}, path).repaired;
   return {std::make_shared<const BodyMesh>(path, std::move(repaired.mesh), options.body), repaired.report};
 }
 

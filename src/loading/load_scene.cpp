@@ -155,10 +155,9 @@ Scene assemble(const SceneSpec& spec, SceneParts parts, const SceneLoadOptions& 
   scene.rigid = parts.rigid;
   scene.pool = options.pool ? options.pool : std::make_shared<BodyPool>(spec.metric_memory_limit);
   scene.limits = options.limits;
-  std::vector<BuiltBody> built =
-      detail::buildBodies(parts.sources, {options.package_locator, options.mesh_search_path, scene.pool,
-                                          spec.cache, options.limits, options.progress});
-  scene.cache = spec.cache;
+  std::vector<BuiltBody> built = detail::buildBodies(
+      parts.sources,
+      {options.package_locator, options.mesh_search_path, scene.pool, options.limits, options.progress});
   scene.simulation = spec.simulation;
   scene.defaults = spec.defaults;
   scene.groups = std::move(selection.groups);
@@ -198,11 +197,6 @@ Scene assemble(const SceneSpec& spec, SceneParts parts, const SceneLoadOptions& 
   detail::attachBodies(spec.bodies, scene);
   noteOpenBodies(scene);
   scene.notes.insert(scene.notes.end(), selection.notes.begin(), selection.notes.end());
-  if (spec.cache) {
-    if (std::string problem = spec.cache->takeProblem(); !problem.empty()) {
-      scene.notes.push_back(std::move(problem));
-    }
-  }
   return scene;
 }
 
@@ -247,7 +241,6 @@ Scene loadRobotScene(const std::string& urdf, const std::string& where, const Sc
   SceneSpec spec;
   spec.defaults.pairs = options.default_settings;
   spec.metric_memory_limit = options.metric_memory_limit;
-  spec.cache = options.cache;
   detail::validatePairSettings(spec.defaults.pairs, where);
   RobotSpec robot;
   robot.where = where;

@@ -132,14 +132,6 @@ std::vector<std::vector<std::string>> readRigidFrames(const YamlValue& value) {
   return sets;
 }
 
-// A folder, relative to that of the scene file, or off.
-PreparationCachePointer readCache(const YamlValue& value, const std::string& base_folder) {
-  std::string folder = value.text();
-  if (folder.empty()) value.refuse("a folder, or off");
-  if (folder != "off") folder = (std::filesystem::path(base_folder) / folder).string();
-  return openPreparationCache(folder);
-}
-
 }  // namespace
 
 SceneSpec readSceneSpec(const std::string& yaml, const std::string& file, const std::string& base_folder,
@@ -148,7 +140,6 @@ SceneSpec readSceneSpec(const std::string& yaml, const std::string& file, const 
   SceneSpec spec;
   spec.defaults.pairs = options.default_settings;
   spec.metric_memory_limit = options.metric_memory_limit;
-  spec.cache = options.cache;
   BodyDefaults body_defaults;
   body_defaults.geometry = options.geometry;
   if (auto v = map.take("materials")) body_defaults.materials = readMaterials(*v);
@@ -166,7 +157,6 @@ SceneSpec readSceneSpec(const std::string& yaml, const std::string& file, const 
   if (auto v = map.take("metric_memory_limit_mb")) {
     spec.metric_memory_limit = v->count(0, kMostMegabytes, "megabytes") * kBytesPerMegabyte;
   }
-  if (auto v = map.take("cache")) spec.cache = readCache(*v, base_folder);
   Names body_names;
   if (auto v = map.take("robots")) {
     for (const YamlValue& item : v->list("a list of robots")) {

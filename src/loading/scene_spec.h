@@ -94,7 +94,6 @@ struct SceneSpec {
   SceneDefaults defaults;
   std::size_t metric_memory_limit = 0;  ///< bytes
   std::optional<SimulationSettings> simulation;
-  PreparationCachePointer cache;  ///< nullptr: none
 };
 
 /// @param base_folder where relative paths start; empty: the working directory

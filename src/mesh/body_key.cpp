@@ -1,20 +1,18 @@
 #include "body_key.h"
 
-#include "repaired_mesh_cache.h"
-
 namespace concave_distance {
 
 ContentKey surfaceKey(const SurfaceMesh& surface) {
   const auto& vertices = surface.vertices();
   const auto& triangles = surface.triangles();
-  return preparationHasher()
+  return ContentHasher()
       .addBytes(vertices.data(), vertices.size() * sizeof(vertices[0]))
       .addBytes(triangles.data(), triangles.size() * sizeof(triangles[0]))
       .key();
 }
 
 ContentKey bodyKey(const ContentKey& surface_key, const BodyMeshOptions& options) {
-  ContentHasher hasher = preparationHasher();
+  ContentHasher hasher;
   hasher.add(surface_key)
       .add(options.max_edge_length.has_value())
       .add(options.max_edge_length.value_or(0.0))

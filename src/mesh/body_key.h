@@ -5,7 +5,7 @@
 
 namespace concave_distance {
 
-/// Stands for the surface and for the program that prepares it.
+/// Stands for the surface.
 ContentKey surfaceKey(const SurfaceMesh& surface);
 
 /// Stands for everything that a body's answers depend on: bodies with the same key differ only in their

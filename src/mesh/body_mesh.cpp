@@ -8,28 +8,28 @@
 #include "base/made_once.h"
 #include "base/number_text.h"
 #include "base/run_together.h"
-#include "body_key.h"
-#include "cached_parts.h"
 #include "concave_distance/base/error.h"
 #include "convex_shells.h"
 #include "mesh/surface/connected_pieces.h"
 #include "mesh/surface/core_mesh.h"
 #include "mesh/surface/facets.h"
 #include "mesh/surface/grid_size.h"
+#include "mesh/surface/mesh_topology.h"
 #include "mesh/surface/round_geometry.h"
 #include "mesh/surface/triangle_adjacency.h"
+#include "mesh/trees/bounding_volume_hierarchy.h"
 #include "mesh/trees/dented_groups.h"
 #include "mesh/trees/hull_gap.h"
 #include "mesh/trees/normal_cone_tree.h"
 #include "mesh/trees/shell_contacts.h"
+#include "mesh/trees/triangle_tree.h"
 
 namespace concave_distance {
 
 struct BodyMesh::State {
-  ContentKey key;
-  detail::PartCache cache;
   MeshTopology topology;
-  detail::Trees trees;
+  TriangleTree tree;
+  BoundingVolumeHierarchy hierarchy;
   // Made on demand:
   MadeOnce<RecentredBody> recentred;
   MadeOnce<RoundCore> core;
@@ -74,16 +74,15 @@ BodyMesh::BodyMesh(std::string name, SurfaceMesh surface, const BodyMeshOptions&
       bounds_(surface_.boundingBox()),
       state_(std::make_unique<State>()),
       topology_(&state_->topology),
-      tree_(&state_->trees.tree),
-      hierarchy_(&state_->trees.hierarchy) {
+      tree_(&state_->tree),
+      hierarchy_(&state_->hierarchy) {
   checkBody(name_, surface_, options_);
   if (options_.shape) bounds_.extend(boundingBox(*options_.shape));
-  if (options_.cache) {
-    state_->cache = {options_.cache.get(), surfaceKey(surface_)};
-    state_->key = bodyKey(state_->cache.surface_key, options_);
-  }
-  runTogether({[&] { state_->topology = detail::topologyOf(surface_, state_->cache); },
-               [&] { state_->trees = detail::treesOf(surface_, state_->cache); }});
+  runTogether({[&] { state_->topology = buildMeshTopology(surface_); },
+               [&] {
+                 state_->tree = TriangleTree(surface_);
+                 state_->hierarchy = BoundingVolumeHierarchy(surface_, state_->tree);
+               }});
 }
 
 // Attachments may refer to the body.
@@ -96,10 +95,6 @@ const BodyAttachment& BodyMesh::attach(std::unique_ptr<const BodyAttachment> mad
   if (attachment_.compare_exchange_strong(kept, made.get(), std::memory_order_acq_rel))
     return *made.release();
   return *kept;
-}
-
-const ContentKey& BodyMesh::key() const {
-  return state_->key;
 }
 
 namespace {
@@ -143,18 +138,18 @@ const RoundCore& BodyMesh::core() const {
 }
 
 const ShellContacts& BodyMesh::shellContacts() const {
-  return state_->shell_contacts.get(
-      [&] { return detail::shellContactsOf(surface(), topology(), tree(), state_->cache); });
+  return state_->shell_contacts.get([&] { return findShellContacts(surface(), topology(), tree()); });
 }
 
 const Facets& BodyMesh::facets() const {
-  return state_->facets.get(
-      [&] { return detail::facetsOf(surface(), topology(), shellContacts().hidden, state_->cache); });
+  return state_->facets.get([&] { return joinFlatTriangles(surface(), topology(), shellContacts().hidden); });
 }
 
 const CompressedRows<AdjacentTriangle>& BodyMesh::adjacency() const {
   return state_->adjacency.get([&] {
-    return detail::facetAdjacencyOf(surface(), topology(), shellContacts(), facets(), state_->cache);
+    CompressedRows<AdjacentTriangle> of_triangles = triangleAdjacency(surface(), topology());
+    if (!shellContacts().isEmpty()) of_triangles = joinedAdjacency(surface(), shellContacts(), of_triangles);
+    return facetAdjacency(facets(), of_triangles);
   });
 }
 
@@ -178,7 +173,7 @@ const ConvexShells& BodyMesh::convexShells() const {
 
 const NormalConeTree& BodyMesh::normalCones(NormalSides sides) const {
   return state_->cones.at(static_cast<std::size_t>(sides)).get([&] {
-    return detail::normalConesOf(surface(), topology(), sides, shellContacts(), state_->cache);
+    return NormalConeTree(surface(), topology(), sides, shellContacts());
   });
 }
 

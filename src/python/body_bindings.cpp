@@ -13,7 +13,6 @@
 #include "concave_distance/base/error.h"
 #include "concave_distance/base/not_computed.h"
 #include "concave_distance/loading/load_body_mesh.h"
-#include "concave_distance/mesh/preparation_cache.h"
 #include "concave_distance/mesh/surface/primitives.h"
 #include "mesh/surface/surface_moments.h"
 #include "pose_arrays.h"
@@ -28,11 +27,9 @@ namespace py = pybind11;
 
 constexpr double kChordErrorOfRadius = 0.01;
 
-PythonBody loadBody(const std::string& path, double scale, std::optional<double> max_edge_length,
-                    const std::string& cache) {
+PythonBody loadBody(const std::string& path, double scale, std::optional<double> max_edge_length) {
   LoadMeshOptions options;
   options.body.max_edge_length = max_edge_length;
-  options.body.cache = openPreparationCache(cache);
   LoadedBodyMesh loaded = loadBodyMesh(path, scale, options);
   return {std::move(loaded.mesh), loaded.repair};
 }
@@ -184,11 +181,10 @@ void bindBodies(py::module_& module) {
           "Number of connected surfaces.")
       .def_readonly("repair", &PythonBody::repair, "RepairReport of loading it.");
   module.def("load_body", &loadBody, py::arg("path"), py::arg("scale") = 1.0, py::kw_only(),
-             py::arg("max_edge_length") = py::none(), py::arg("cache") = "", py::call_guard<Unlocked>(),
+             py::arg("max_edge_length") = py::none(), py::call_guard<Unlocked>(),
              "Reads a mesh file (.stl, .obj, .ply, .dae), repairs it and makes it ready for queries.\n\n"
              "scale: factor on the file's coordinates, 0.001 for millimetres\n"
              "max_edge_length: of the search's grid, metres; None: automatic\n"
-             "cache: folder that keeps what was prepared, '' for the user's, 'off' for none\n"
              "Raises Error naming the file.");
   module.def("make_body", &makeBody, py::arg("vertices"), py::arg("triangles"), py::arg("name") = "body",
              py::kw_only(), py::arg("weld_tolerance") = kSinglePrecisionWeld, py::arg("orient") = true,

@@ -45,21 +45,19 @@ std::string readText(const std::string& path) {
 }
 
 SceneLoadOptions loadOptions(const Texts& package_folders, const Texts& mesh_folders, bool strict,
-                             const std::string& cache, const std::string& where, const py::kwargs& keywords) {
+                             const std::string& where, const py::kwargs& keywords) {
   SceneLoadOptions options;
   if (!package_folders.empty()) options.package_locator = packagesBelow(package_folders);
   options.mesh_search_path = mesh_folders;
   options.strict = strict;
-  options.cache = openPreparationCache(cache);
   setParameters(keywords, Keywords::OfScene, where, options.default_settings.tracker);
   return options;
 }
 
 ScenePointer loadSceneOf(const std::string& path, const Texts& package_folders, const Texts& mesh_folders,
-                         bool strict, const std::string& cache,
-                         const std::map<std::string, std::string>& descriptions, const py::kwargs& keywords) {
-  SceneLoadOptions options =
-      loadOptions(package_folders, mesh_folders, strict, cache, "load_scene", keywords);
+                         bool strict, const std::map<std::string, std::string>& descriptions,
+                         const py::kwargs& keywords) {
+  SceneLoadOptions options = loadOptions(package_folders, mesh_folders, strict, "load_scene", keywords);
   options.descriptions = descriptions;
   const Unlocked unlocked;
   return std::make_shared<PythonScene>(loadSceneFile(path, options));
@@ -73,10 +71,9 @@ GeometrySource geometryOf(const std::string& name) {
 
 ScenePointer loadRobotOf(const std::string& urdf, const std::optional<std::string>& srdf,
                          const Texts& package_folders, const Texts& mesh_folders, bool strict,
-                         const std::string& cache, const std::string& geometry, bool skip_overlapping_pairs,
+                         const std::string& geometry, bool skip_overlapping_pairs,
                          const py::kwargs& keywords) {
-  SceneLoadOptions options =
-      loadOptions(package_folders, mesh_folders, strict, cache, "load_robot", keywords);
+  SceneLoadOptions options = loadOptions(package_folders, mesh_folders, strict, "load_robot", keywords);
   options.geometry = geometryOf(geometry);
   options.skip_overlapping_pairs = skip_overlapping_pairs;
   options.mesh_search_path.push_back(urdf);
@@ -137,21 +134,20 @@ constexpr const char* kLoadingDoc =
     "package_folders: where package:// is looked for first; after that as ROS does\n"
     "mesh_folders: searched for meshes that are not where the file says\n"
     "strict: the first thing that cannot be loaded raises Error; else it is in Scene.problems\n"
-    "cache: folder that keeps what was prepared, '' for the user's, 'off' for none\n"
     "Further keywords: defaults of the pairs, as parameters() without margins and niches_wanted.\n"
     "Raises Error naming file, line and key.";
 
 void bindLoading(py::module_& module) {
   module.def(
       "load_scene", &loadSceneOf, py::arg("path"), py::kw_only(), py::arg("package_folders") = Texts(),
-      py::arg("mesh_folders") = Texts(), py::arg("strict") = false, py::arg("cache") = "",
+      py::arg("mesh_folders") = Texts(), py::arg("strict") = false,
       py::arg("descriptions") = std::map<std::string, std::string>(),
       (std::string("Loads a scene file.\n\ndescriptions: URDF texts by the names that the file has\n") +
        kLoadingDoc)
           .c_str());
   module.def("load_robot", &loadRobotOf, py::arg("urdf"), py::arg("srdf") = py::none(), py::kw_only(),
              py::arg("package_folders") = Texts(), py::arg("mesh_folders") = Texts(),
-             py::arg("strict") = false, py::arg("cache") = "", py::arg("geometry") = "collision",
+             py::arg("strict") = false, py::arg("geometry") = "collision",
              py::arg("skip_overlapping_pairs") = false,
              (std::string("Loads a robot: every link a body, every two links a pair but adjacent ones.\n\n"
                           "urdf: path of the file; srdf: of one that disables pairs\n"

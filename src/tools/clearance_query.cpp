@@ -33,7 +33,6 @@ struct ClearanceQueryOptions {
   std::string output;
   std::string pairs_output;
   std::string niches_output;
-  std::string cache;
   ClearanceParameters parameters;
   bool shows_progress = false;
 };
@@ -41,7 +40,6 @@ struct ClearanceQueryOptions {
 Scene load(const ClearanceQueryOptions& options) {
   SceneLoadOptions load_options;
   load_options.package_locator = packagePathFromEnvironment;
-  load_options.cache = openPreparationCache(options.cache);
   readDescriptions(options.descriptions, load_options.descriptions, load_options.mesh_search_path);
   Scene scene = loadSceneFile(options.scene, load_options);
   for (const SceneProblem& problem : scene.problems) {
@@ -245,7 +243,6 @@ void addOptions(CLI::App& app, ClearanceQueryOptions& options) {
       ->capture_default_str();
   app.add_flag("--each-pair", parameters.each_pair, "prove the least distance of every pair");
   app.add_option("--threads", parameters.threads, "0: one per core")->capture_default_str();
-  addCacheOption(app, options.cache);
   app.add_option("--output", options.output,
                  "status,distance,lower_bound,time,body_a,body_b,ax,ay,az,bx,by,bz,proven_until,first_time,"
                  "first_a,first_b,queries,box_queries,seconds")

@@ -13,14 +13,12 @@
 #include "base/versions.h"
 #include "concave_distance/loading/load_body_mesh.h"
 #include "concave_distance/mesh/body_mesh.h"
-#include "concave_distance/mesh/preparation_cache.h"
 #include "concave_distance/scene/scene.h"
 #include "concave_distance/tracking/pair_tracker.h"
 #include "loading/query_poses.h"
 #include "parameter_options.h"
 #include "query_report.h"
 #include "scene/pair_parameters.h"
-#include "scene_options.h"
 #include "tracking/tracker_parameter_table.h"
 
 namespace concave_distance::tools {
@@ -41,7 +39,6 @@ struct DistanceQueryOptions {
   double scale_b = 1.0;
   PairSettings settings = querySettings();
   std::optional<double> max_edge_length;  ///< metres; grid of the search, both bodies
-  std::string cache;                      ///< folder of prepared bodies; empty: the user's, "off": none
   bool tracking = false;
   std::string output;
   std::string niches_output;  ///< empty: niches are not asked for
@@ -67,7 +64,6 @@ struct LoadedBodies {
 LoadedBodies loadBodies(const DistanceQueryOptions& options, std::ostream& log) {
   LoadMeshOptions load_options;
   load_options.body.max_edge_length = options.max_edge_length;
-  load_options.body.cache = openPreparationCache(options.cache);
   LoadedBodies bodies;
   std::ostringstream log_b;  // both at once, what they say one after the other
   runTogether({[&] { bodies.a = loadBody(options.mesh_a, options.scale_a, load_options, log); },
@@ -75,10 +71,6 @@ LoadedBodies loadBodies(const DistanceQueryOptions& options, std::ostream& log) 
   log << log_b.str();
   requireMargin("--margin-a", options.settings.tracker.margin_a, *bodies.a);
   requireMargin("--margin-b", options.settings.tracker.margin_b, *bodies.b);
-  if (load_options.body.cache) {
-    if (const std::string problem = load_options.body.cache->takeProblem(); !problem.empty())
-      log << problem << '\n';
-  }
   return bodies;
 }
 
@@ -204,7 +196,6 @@ void addOptions(CLI::App& app, DistanceQueryOptions& options) {
   app.add_option("--max-edge", options.max_edge_length,
                  "longest edge of the search grids, metres (automatic)")
       ->check(CLI::PositiveNumber);
-  addCacheOption(app, options.cache);
   app.add_flag("--tracking", options.tracking,
                "lines are successive instants of one motion: warm starts, persistent niche numbers");
   app.add_option(

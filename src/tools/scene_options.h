@@ -48,11 +48,4 @@ inline void readDescriptions(const std::vector<std::string>& given, std::map<std
   }
 }
 
-inline void addCacheOption(CLI::App& app, std::string& cache) {
-  app.add_option("--cache", cache,
-                 "folder that keeps what was prepared of the meshes, or off "
-                 "($XDG_CACHE_HOME/concave_distance, ~/.cache/concave_distance)")
-      ->type_name("DIR|off");
-}
-
 }  // namespace concave_distance::tools

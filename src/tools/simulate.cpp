@@ -33,7 +33,6 @@ struct Options {
   std::string output;
   std::string contacts;
   std::string niches;
-  std::string cache;
   SimulationSettings given;  ///< where the option is given
   bool progress = false;
 };
@@ -51,7 +50,6 @@ void addOptions(CLI::App& app, Options& options) {
   for (const Parameter<SimulationSettings>& parameter : simulationParameters()) {
     tools::addParameter(app, parameter, options.given)->default_str("the scene's");
   }
-  tools::addCacheOption(app, options.cache);
   app.add_flag("--progress", options.progress, "show simulated time and real-time factor on the way");
 }
 
@@ -74,7 +72,6 @@ void printWarnings(const std::vector<std::string>& warnings) {
 Scene load(const Options& options) {
   SceneLoadOptions load_options;
   load_options.package_locator = packagePathFromEnvironment;
-  load_options.cache = openPreparationCache(options.cache);
   Scene scene = loadSceneFile(options.scene, load_options);
   printWarnings(scene.warnings);
   return scene;

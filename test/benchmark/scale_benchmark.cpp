@@ -3,19 +3,16 @@
 //
 //   scale_benchmark [--sizes 1000,10000,100000,1000000] [--steps 200] [--output doc/results/scale.csv]
 //
-// A row is a size: triangles of each body; seconds to make both bodies ready, with all threads, with one, and
-// from the preparation cache (files in the system's memory); bytes a triangle of the
-// hierarchy, of its tree and of the whole body; median microseconds of the proven distance cold, seeded and
-// with a front, of FCL's plain distance, and of a warm cycle with all niches at level `certified` (seeded and
-// front along 200 steps of a tenth of a diameter in all); the greatest memory the process has used so far,
-// megabytes.
+// A row is a size: triangles of each body; seconds to make both bodies ready, with all threads and with
+// one; bytes a triangle of the hierarchy, of its tree and of the whole body; median microseconds of the
+// proven distance cold, seeded and with a front, of FCL's plain distance, and of a warm cycle with all niches
+// at level `certified` (seeded and front along 200 steps of a tenth of a diameter in all); the greatest
+// memory the process has used so far, megabytes.
 #include <sys/resource.h>
 #include <tbb/global_control.h>
-#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <chrono>
-#include <filesystem>
 
 #include "base/run_together.h"
 #include "benchmark/support/benchmark_main.h"
@@ -63,7 +60,6 @@ double buildBoth(const SurfaceMesh& surface, const BodyMeshOptions& options, Bod
 struct BuildTimes {
   double parallel;
   double serial;
-  double cached;
 };
 
 BuildTimes timeBuilds(const SurfaceMesh& surface) {
@@ -78,13 +74,6 @@ BuildTimes timeBuilds(const SurfaceMesh& surface) {
     times.serial = time_one({});
   }
   times.parallel = time_one({});
-  const std::filesystem::path folder =
-      std::filesystem::temp_directory_path() / ("scale_benchmark_" + std::to_string(getpid()));
-  BodyMeshOptions kept;
-  kept.cache = std::make_shared<PreparationCache>(folder.string());
-  (void)time_one(kept);
-  times.cached = time_one(kept);
-  std::filesystem::remove_all(folder);
   return times;
 }
 
@@ -124,7 +113,7 @@ void run(std::size_t size, int steps, ResultTable& table) {
   const double tree = static_cast<double>(a->tree().memoryBytes()) / triangles;
   const double body = static_cast<double>(a->memoryBytes()) / triangles;
   table.add(surface.triangleCount(), build.parallel, hierarchy, tree, body, fcl, cold, seeded, kept, tracked,
-            peak, build.serial, build.cached);
+            peak, build.serial);
 }
 
 }  // namespace
@@ -143,7 +132,7 @@ int benchmarkMain(int argc, char** argv) {
   ResultTable table(
       output,
       "triangles,build_s,hierarchy_bytes,tree_bytes,body_bytes,fcl_us,cold_us,seeded_us,front_us,"
-      "tracked_us,peak_mb,build_serial_s,build_cached_s");
+      "tracked_us,peak_mb,build_serial_s");
   for (const std::size_t size : sizes) run(size, steps, table);
   return 0;
 }

@@ -78,7 +78,6 @@ class Arena:
             "ROS_PACKAGE_PATH": os.pathsep.join([self.source, "/usr/share"]),
             "ROS_LOG_DIR": os.path.join(self.folder, "ros_logs"),
             "ROS_HOME": os.path.join(self.folder, "ros_home"),
-            "XDG_CACHE_HOME": os.path.join(self.folder, "cache"),
             "PYTHONUNBUFFERED": "1",
             "ASAN_OPTIONS": "detect_leaks=0:quarantine_size_mb=16:malloc_context_size=12:allocator_may_return_null=1"
                             ":suppressions=%s/test/faults/asan_suppressions.txt" % REPOSITORY,

@@ -58,9 +58,9 @@ std::string writeReproducer(const DifferentialScene& scene, std::uint64_t seed, 
   for (Eigen::Index i = 0; i < 4; ++i) line << ',' << scene.b_in_a.quaternion[i];
   line << '\n';
   write(poses, line.str());
-  const std::string command = "distance_query --accuracy certified --cache off --mesh-a " + mesh_a +
-                              " --mesh-b " + mesh_b + " --poses " + poses + " --output " + folder +
-                              "/answer" + mark + ".csv";
+  const std::string command = "distance_query --accuracy certified --mesh-a " + mesh_a + " --mesh-b " +
+                              mesh_b + " --poses " + poses + " --output " + folder + "/answer" + mark +
+                              ".csv";
   const bool same = bringsBack(mesh_a, scene.a) && bringsBack(mesh_b, scene.b);
   write(folder + "/report" + mark + ".txt",
         scene.description + "\n" + report + "\n" + command + "\n" +

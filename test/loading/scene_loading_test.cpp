@@ -1,15 +1,21 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
+#include <filesystem>
 #include <limits>
+#include <map>
 
 #include "base/constants.h"
+#include "concave_distance/mesh/import/export_mesh.h"
+#include "concave_distance/mesh/surface/primitives.h"
 #include "concave_distance/search/prepare_search.h"
+#include "mesh/import/import_process.h"
 #include "mesh/surface/mesh_topology.h"
 #include "scene/body_pool.h"
 #include "search/grid/body_grid.h"
 #include "search/grid/mesh_metric.h"
 #include "search/grid/node_graph.h"
+#include "support/concave_shapes.h"
 #include "support/scene_fixture.h"
 
 namespace concave_distance::scene_loading_test {
@@ -175,6 +181,74 @@ TEST_F(SceneLoading, AMeshThatABodyHasIsNotReadAgainUntilItsFileChanges) {
   EXPECT_THROW(load_now(), Error) << "the file is another one now";
   ::unsetenv("CONCAVE_DISTANCE_IMPORT_WORKER");
   EXPECT_NE(load_now().repair.triangles_in, first.repair.triangles_in);
+}
+
+TEST_F(SceneLoading, AChangedFileIsReadAnew) {
+  const std::string scene = "bodies: [{name: comb, mesh: comb.stl, max_edge_length: 100}]\n";
+  exportMesh(test::makeComb(4), folder.path("comb.stl"));
+  const Scene before = load(scene);
+  options.pool = before.pool;
+  EXPECT_EQ(load(scene).bodies[0].mesh, before.bodies[0].mesh);
+  exportMesh(test::makeComb(7), folder.path("comb.stl"));
+  EXPECT_NE(load(scene).bodies[0].mesh->diameter(), before.bodies[0].mesh->diameter());
+}
+
+TEST_F(SceneLoading, EveryInputThatChangesMakesAnotherMesh) {
+  exportMesh(test::makeComb(4), folder.path("comb.stl"));
+  exportMesh(makeSphere(0.4, 0.02), folder.path("ball.ply"));
+  const std::vector<std::string> bodies = {"mesh: comb.stl",
+                                           "mesh: comb.stl, max_edge_length: 0.1",
+                                           "mesh: comb.stl, max_edge_length: 0.1000001",
+                                           "mesh: comb.stl, scale: 2",
+                                           "mesh: comb.stl, scale: [1, 1, -1]",
+                                           "mesh: comb.stl, pose: {xyz: [0, 0, 1e-9]}",
+                                           "mesh: ball.ply",
+                                           "box: {size: [1, 1, 1]}",
+                                           "box: {size: [1, 1, 1.0000001]}",
+                                           "sphere: {radius: 1}",
+                                           "sphere: {radius: 1}, chord_error: 0.02",
+                                           "cylinder: {radius: 1, length: 2}",
+                                           "capsule: {radius: 1, length: 2}"};
+  std::string yaml = "bodies:\n";
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    yaml += "  - {name: b" + std::to_string(i) + ", " + bodies[i] + "}\n";
+  const Scene scene = load(yaml);
+  ASSERT_EQ(scene.bodies.size(), bodies.size());
+  std::map<const BodyMesh*, std::string> body_of_mesh;
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const auto [other, is_new] = body_of_mesh.emplace(scene.bodies[i].mesh.get(), bodies[i]);
+    EXPECT_TRUE(is_new) << bodies[i] << " and " << other->second;
+  }
+}
+
+TEST_F(SceneLoading, AFileThatIsReplacedWhileItIsReadIsNotKeptUnderItsOldContent) {
+  // The first import puts another file in the place of the second mesh; the second one may put it back.
+  exportMesh(test::makeComb(4), folder.path("comb.stl"));
+  exportMesh(makeSphere(0.4, 0.02), folder.path("ball.ply"));
+  const std::string worker = detail::importWorkerPath();
+  const std::string robot =
+      "<robot name='r'><link name='l'><collision><geometry><mesh "
+      "filename='package://arm_description/comb.stl'/></geometry></collision>"
+      "<collision><geometry><mesh "
+      "filename='package://arm_description/ball.ply'/></geometry></collision></link></robot>";
+  const auto diameter_of = [](const Scene& scene) { return scene.bodies.at(0).mesh->diameter(); };
+  const double expected = diameter_of(loadRobot(robot));
+  for (const bool put_back : {false, true}) {
+    options.pool = std::make_shared<BodyPool>(0);
+    exportMesh(makeSphere(4.0, 0.1), folder.path("other.ply"));
+    const std::string replacing = folder.write(
+        "worker", "#!/bin/sh\nPATH=/usr/bin:/bin\ncd '" + folder.path() +
+                      "'\nif [ -e other.ply ]; then mv ball.ply kept.ply; mv other.ply ball.ply\n" +
+                      (put_back ? "else mv kept.ply ball.ply\n" : "") + "fi\nexec '" + worker + "' \"$@\"\n");
+    std::filesystem::permissions(replacing, std::filesystem::perms::owner_all);
+    ::setenv("CONCAVE_DISTANCE_IMPORT_WORKER", replacing.c_str(), 1);
+    const Scene replaced = loadRobot(robot);  // the pool has what it was made of as long as it lives
+    ::unsetenv("CONCAVE_DISTANCE_IMPORT_WORKER");
+    EXPECT_GT(diameter_of(replaced), expected + 1.0);
+    EXPECT_EQ(std::filesystem::exists(folder.path("kept.ply")), !put_back);
+    if (!put_back) std::filesystem::rename(folder.path("kept.ply"), folder.path("ball.ply"));
+    EXPECT_EQ(diameter_of(loadRobot(robot)), expected) << "put back: " << put_back;
+  }
 }
 
 TEST_F(SceneLoading, NothingOfTheSearchIsMadeBeforeItIsNeeded) {
@@ -372,7 +446,7 @@ TEST_F(SceneLoading, BodiesOfGivenTrianglesAreRefusedOneByOne) {
   limits.triangles = 60;
   const std::vector<LoadedBody> loaded =
       loadBodies({good, with(tetrahedron()), with({}), with(no_corner), with(no_number), with(many)}, "",
-                 nullptr, nullptr, nullptr, limits);
+                 nullptr, nullptr, limits);
   ASSERT_EQ(loaded.size(), 6U);
   EXPECT_TRUE(loaded[0].body && !loaded[0].problem);
   EXPECT_TRUE(loaded[1].body && !loaded[1].problem);

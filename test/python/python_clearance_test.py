@@ -24,7 +24,7 @@ def load_text(load, text, suffix):
     with tempfile.NamedTemporaryFile("w", suffix=suffix) as file:
         file.write(text)
         file.flush()
-        return load(file.name, cache="off", strict=True)
+        return load(file.name, strict=True)
 
 
 class Alarm(Exception):

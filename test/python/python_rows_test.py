@@ -26,14 +26,14 @@ def load_slide():
     with tempfile.NamedTemporaryFile("w", suffix=".urdf") as file:
         file.write(SLIDE)
         file.flush()
-        return cd.load_robot(file.name, cache="off", strict=True)
+        return cd.load_robot(file.name, strict=True)
 
 
 def load_cell():
     with tempfile.NamedTemporaryFile("w", suffix=".yaml") as file:
         file.write(CELL)
         file.flush()
-        return cd.load_scene(file.name, cache="off", strict=True, descriptions={"robot_description": SLIDE})
+        return cd.load_scene(file.name, strict=True, descriptions={"robot_description": SLIDE})
 
 
 def load_wam():

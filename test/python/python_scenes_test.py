@@ -30,7 +30,7 @@ class Scenes(unittest.TestCase):
         return path
 
     def test_a_scene_file(self):
-        scene = cd.load_scene(self.write("scene.yaml", SCENE), cache="off", strict=True)
+        scene = cd.load_scene(self.write("scene.yaml", SCENE), strict=True)
         self.assertEqual(scene.body_names, ["near", "far"])
         self.assertEqual(scene.problems, [])
         tracker = cd.SceneTracker(scene, threads=1)
@@ -57,14 +57,14 @@ class Scenes(unittest.TestCase):
         self.assertAlmostEqual(tracker.update(poses, 1.0).rows["distance"][0], 0.8)
 
     def test_a_cutoff_gives_a_bound(self):
-        scene = cd.load_scene(self.write("scene.yaml", SCENE), cache="off", cutoff=1.0)
+        scene = cd.load_scene(self.write("scene.yaml", SCENE), cutoff=1.0)
         answers = cd.SceneTracker(scene).update([[0.0, 0, 0, 0, 0, 0, 1], [5.0, 0, 0, 0, 0, 0, 1]], 0.0)
         self.assertEqual(answers.states[0], cd.PairState.BEYOND_CUTOFF)
         self.assertGreater(answers.bounds[0], 1.0)
         self.assertLessEqual(answers.bounds[0], 4.5)
 
     def test_joint_positions(self):
-        robot = cd.load_robot(self.write("robot.urdf", SLIDE), cache="off", strict=True)
+        robot = cd.load_robot(self.write("robot.urdf", SLIDE), strict=True)
         self.assertEqual(robot.position_names, ["slide"])
         self.assertEqual(robot.rest_positions.tolist(), [0.0])
         positions = np.linspace(-1.0, 1.0, 21)[:, None]
@@ -110,7 +110,7 @@ class Scenes(unittest.TestCase):
         self.assertEqual(tracker.nearest(np.zeros((0, len(robot.body_names), 7))).size, 0)
 
     def test_the_nearest_beyond_a_cutoff_has_a_bound(self):
-        scene = cd.load_scene(self.write("scene.yaml", SCENE), cache="off", cutoff=1.0)
+        scene = cd.load_scene(self.write("scene.yaml", SCENE), cutoff=1.0)
         row = cd.SceneTracker(scene).nearest([[[0.0, 0, 0, 0, 0, 0, 1], [5.0, 0, 0, 0, 0, 0, 1]]])[0]
         self.assertTrue(np.isnan(row["distance"]))
         self.assertTrue(1.0 < row["lower_bound"] <= 4.5)
@@ -149,31 +149,31 @@ class Scenes(unittest.TestCase):
 
     def test_a_robot_of_visual_geometry(self):
         visual = self.write("visual.urdf", SLIDE.replace("collision>", "visual>"))
-        bare = cd.load_robot(visual, cache="off")
+        bare = cd.load_robot(visual)
         self.assertEqual(bare.body_names, [])
         self.assertIn("set geometry to visual", bare.warnings[0])
-        robot = cd.load_robot(visual, cache="off", geometry="visual")
-        self.assertEqual(robot.body_names, cd.load_robot(self.write("robot.urdf", SLIDE), cache="off").body_names)
+        robot = cd.load_robot(visual, geometry="visual")
+        self.assertEqual(robot.body_names, cd.load_robot(self.write("robot.urdf", SLIDE)).body_names)
         self.assertEqual(robot.warnings, [])
 
     def test_links_that_always_overlap_are_named_or_left_out(self):
         swallowing = self.write("swallowing.urdf", SLIDE.replace('radius="0.1"', 'radius="3"'))
-        self.assertIn("or set skip_overlapping_pairs", cd.load_robot(swallowing, cache="off").warnings[0])
-        skipped = cd.load_robot(swallowing, cache="off", skip_overlapping_pairs=True)
+        self.assertIn("or set skip_overlapping_pairs", cd.load_robot(swallowing).warnings[0])
+        skipped = cd.load_robot(swallowing, skip_overlapping_pairs=True)
         self.assertEqual(skipped.warnings, [])
 
     def test_messages_name_keywords_of_python(self):
         text = SLIDE.replace('<sphere radius="0.1"/>', '<mesh filename="package://nowhere/box.stl"/>', 1)
         path = self.write("mesh.urdf", text)
-        _, message = cd.load_robot(path, cache="off").problems[0]
+        _, message = cd.load_robot(path).problems[0]
         self.assertIn("name the folder that holds the meshes in mesh_folders", message)
         with self.assertRaises(cd.Error) as caught:
-            cd.load_robot(path, cache="off", strict=True)
+            cd.load_robot(path, strict=True)
         self.assertIn("in mesh_folders", str(caught.exception))
 
     def test_messages_keep_paths_with_a_tilde(self):
         with self.assertRaises(cd.Error) as caught:
-            cd.load_scene("~ann/cell.yaml", cache="off")
+            cd.load_scene("~ann/cell.yaml")
         self.assertIn("~ann/cell.yaml", str(caught.exception))
 
     def test_none_is_no_scene(self):
@@ -189,8 +189,8 @@ class Scenes(unittest.TestCase):
                 self.assertEqual(caught.exception.where, path)
 
     def test_errors(self):
-        scene = cd.load_scene(self.write("scene.yaml", SCENE), cache="off")
-        robot = cd.load_robot(self.write("robot.urdf", SLIDE), cache="off")
+        scene = cd.load_scene(self.write("scene.yaml", SCENE))
+        robot = cd.load_robot(self.write("robot.urdf", SLIDE))
         wrong = self.write("wrong.yaml", SCENE.replace("radius: 0.3", "radios: 0.3"))
         no_pose = np.tile([0.0, 0, 0, 0, 0, 0, 1], (2, 1))
         no_pose[1, 6] = 3.0

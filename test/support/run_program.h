@@ -9,11 +9,10 @@
 
 namespace concave_distance::test {
 
-/// Runs a program in a folder, which has its cache too, and returns the exit status; -1: a signal ended it.
+/// Runs a program in a folder and returns the exit status; -1: a signal ended it.
 /// The file "log" of the folder gets what it prints.
 inline int runIn(const TemporaryFolder& folder, const std::string& program, const std::string& arguments) {
-  const std::string command = "cd " + folder.path() + " && XDG_CACHE_HOME=" + folder.path("cache") + " " +
-                              program + " " + arguments + " > log 2>&1";
+  const std::string command = "cd " + folder.path() + " && " + program + " " + arguments + " > log 2>&1";
   const int status = std::system(command.c_str());
   return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }

@@ -10,7 +10,7 @@
 namespace concave_distance {
 
 struct LoadMeshOptions {
-  BodyMeshOptions body;     ///< search grid and cache
+  BodyMeshOptions body;     ///< search grid
   MeshImportLimits limits;  ///< of reading the file
 };
 
@@ -20,7 +20,7 @@ struct LoadedBodyMesh {
 };
 
 /// Reads a mesh file (importMesh), repairs it (repairMesh) and makes it ready for queries, as the node and
-/// the tools do. With a cache in the options, what was prepared before is read from there.
+/// the tools do.
 /// @param path of a file; its name is the body's
 /// @param scale factor on the file's coordinates: 0.001 for millimetres
 /// @throws Error naming the file, as the functions above

@@ -65,8 +65,6 @@ struct SceneLoadOptions {
   /// body gets its matrices at its first search if the rest of the limit holds them; the others compute
   /// distances on their mesh on demand.
   std::size_t metric_memory_limit = kDefaultMetricMemoryLimit;
-  /// Prepared bodies are kept here between runs, unless the scene file says otherwise; nullptr: nowhere.
-  PreparationCachePointer cache;
   /// Meshes are shared with the scene of this pool where they are equal; nullptr: with none.
   std::shared_ptr<BodyPool> pool;
   SceneLimits limits;
@@ -114,17 +112,14 @@ struct LoadedBody {
                                                  const std::string& base_folder,
                                                  const PackageLocator& package_locator,
                                                  const std::shared_ptr<BodyPool>& pool,
-                                                 const PreparationCachePointer& cache,
                                                  const SceneLimits& limits);
 /// Loads one body as a scene does.
 /// @param pool of its scene; nullptr: a new one
-/// @param cache as SceneLoadOptions::cache
 /// @param limits only those of one body apply
 /// @throws Error naming the body
 [[nodiscard]] SceneBody loadBody(const BodyDescription& description, const std::string& base_folder,
                                  const PackageLocator& package_locator,
                                  const std::shared_ptr<BodyPool>& pool = nullptr,
-                                 const PreparationCachePointer& cache = nullptr,
                                  const SceneLimits& limits = {});
 
 }  // namespace concave_distance

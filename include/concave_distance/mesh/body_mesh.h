@@ -7,7 +7,6 @@
 #include <optional>
 #include <string>
 
-#include "concave_distance/mesh/preparation_cache.h"
 #include "concave_distance/mesh/surface/round_shape.h"
 #include "concave_distance/mesh/surface/surface_mesh.h"
 
@@ -20,7 +19,6 @@ class TriangleTree;
 enum class NormalSides : std::uint8_t;
 struct AdjacentTriangle;
 struct ConnectedPieces;
-struct ContentKey;
 struct ConvexShells;
 struct Facets;
 struct HullGap;
@@ -42,8 +40,6 @@ struct BodyMeshOptions {
   std::size_t matrix_node_limit = 4096;
   /// Limit for these matrices, shared by several bodies; without room in it none are made. nullptr: no limit.
   std::shared_ptr<MetricMemory> metric_memory;
-  /// Prepared parts are looked for and stored here; nullptr: nowhere.
-  PreparationCachePointer cache;
   /// The solid that the surface is the inscribed mesh of: answers are for that solid. Empty: the surface is
   /// what it is.
   std::optional<RoundShape> shape;
@@ -90,8 +86,6 @@ class BodyMesh {
   const SurfaceMesh& surface() const { return surface_; }
   double diameter() const { return surface_.diameter(); }
   const BodyMeshOptions& options() const { return options_; }
-  /// Stands for surface and options in the cache (bodyKey()); unset without a cache.
-  const ContentKey& key() const;
   /// The solid that the surface is the inscribed mesh of; nullptr: none.
   const RoundShape* shape() const { return options_.shape ? &*options_.shape : nullptr; }
   /// Holds the surface and the shape, body frame.

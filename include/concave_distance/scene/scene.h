@@ -168,8 +168,7 @@ struct Scene {
   std::shared_ptr<const Scene> loaded;
   std::optional<double> automatic_cutoff;        ///< m, if SceneLoadOptions requests one
   std::optional<SimulationSettings> simulation;  ///< the section `simulation`, where there is one
-  PreparationCachePointer cache;                 ///< of its bodies, used for later ones too; nullptr: none
-  std::shared_ptr<BodyPool> pool;                ///< the same
+  std::shared_ptr<BodyPool> pool;                ///< of its bodies, used for later ones too
   SceneLimits limits;                            ///< for edits, too
   /// The joints of its robots, for kinematics/; not of a robot whose joints cannot be moved (see `notes`).
   std::vector<std::shared_ptr<const RobotKinematics>> robots;

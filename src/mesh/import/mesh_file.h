@@ -39,7 +39,7 @@ class MeshFile {
 };
 
 /// Adds the file's bytes and its ending to the hash of a body. False when it cannot be read completely or
-/// exceeds `limits`: then it is not cached. Uses constant memory.
+/// exceeds `limits`: then it has no key. Uses constant memory.
 bool addMeshFile(ContentHasher& hasher, const MeshFile& file, const MeshImportLimits& limits);
 
 /// Imports an opened file as importMesh() does a path.

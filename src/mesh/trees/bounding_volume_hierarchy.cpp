@@ -197,13 +197,6 @@ BoundingVolumeHierarchy::BoundingVolumeHierarchy(const SurfaceMesh& mesh, const 
   chooseSubtrees();
 }
 
-BoundingVolumeHierarchy::BoundingVolumeHierarchy(const Eigen::Vector3d& origin, double reach,
-                                                 std::vector<Node> nodes, std::vector<Leaf> leaves)
-    : origin_(origin), reach_(reach), nodes_(std::move(nodes)), leaves_(std::move(leaves)) {
-  roundNodes();
-  chooseSubtrees();
-}
-
 void BoundingVolumeHierarchy::roundNodes() {
   const double unit = reach_ > 0.0 ? 1.0 / reach_ : 0.0;
   single_nodes_.resize(nodes_.size());

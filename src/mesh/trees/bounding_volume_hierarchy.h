@@ -59,9 +59,6 @@ class BoundingVolumeHierarchy {
 
   BoundingVolumeHierarchy() = default;
   BoundingVolumeHierarchy(const SurfaceMesh& mesh, const TriangleTree& tree);
-  /// Takes another hierarchy's parts as they are. O(nodes).
-  BoundingVolumeHierarchy(const Eigen::Vector3d& origin, double reach, std::vector<Node> nodes,
-                          std::vector<Leaf> leaves);
 
   const Eigen::Vector3d& origin() const { return origin_; }
   /// Returns the largest distance of a vertex from `origin`, rounded up; metres.

@@ -87,25 +87,7 @@ class NormalConeTree {
     return groups_.capacity() * sizeof(Group) + items_.capacity() * sizeof(Item);
   }
 
-  /// Passes all of it to a file that reads or writes (cached_parts.h).
-  template <typename File>
-  void transfer(File& file) {
-    transferParts(file, *this);
-  }
-  template <typename File>
-  void transfer(File& file) const {
-    transferParts(file, *this);
-  }
-
  private:
-  template <typename File, typename Tree>
-  static void transferParts(File& file, Tree& tree) {
-    file.value(tree.origin_);
-    file.value(tree.unit_);
-    file.array(tree.groups_);
-    file.array(tree.items_);
-    file.array(tree.subtrees_);
-  }
   void chooseSubtrees();
   Eigen::Vector3d centreOf(Slot slot) const;
 

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 #include "concave_distance/mesh/surface/surface_mesh.h"
@@ -23,9 +22,6 @@ class TriangleTree {
   };
   TriangleTree() = default;
   explicit TriangleTree(const SurfaceMesh& mesh);
-  /// Takes another tree's nodes() and order() as they are.
-  TriangleTree(std::vector<Node> nodes, std::vector<TriangleIndex> order)
-      : nodes_(std::move(nodes)), order_(std::move(order)) {}
   const std::vector<Node>& nodes() const { return nodes_; }
   /// Returns the triangles in leaf order: a leaf holds order()[first .. first + count).
   const std::vector<TriangleIndex>& order() const { return order_; }

@@ -136,7 +136,7 @@ class BodyMesh:
     @property
     def repair(self) -> RepairReport: ...
 
-def load_body(path: str, scale: float = 1.0, *, max_edge_length: Optional[float] = None, cache: str = "") -> BodyMesh: ...
+def load_body(path: str, scale: float = 1.0, *, max_edge_length: Optional[float] = None) -> BodyMesh: ...
 def make_body(
     vertices: ArrayLike, triangles: ArrayLike, name: str = "body", *, weld_tolerance: float = 2e-7, orient: bool = True
 ) -> BodyMesh: ...
@@ -217,7 +217,6 @@ def load_scene(
     package_folders: Sequence[str] = (),
     mesh_folders: Sequence[str] = (),
     strict: bool = False,
-    cache: str = "",
     descriptions: Mapping[str, str] = ...,
     **parameters: Any,
 ) -> Scene: ...
@@ -228,7 +227,6 @@ def load_robot(
     package_folders: Sequence[str] = (),
     mesh_folders: Sequence[str] = (),
     strict: bool = False,
-    cache: str = "",
     geometry: str = "collision",
     skip_overlapping_pairs: bool = False,
     **parameters: Any,

@@ -24,7 +24,6 @@ void addSceneOptions(CLI::App& app, BagOptions& options) {
   app.add_option("--mesh-search-path", options.node.mesh_search_folders,
                  "folder to search for meshes that are not found; once for each")
       ->type_name("DIR");
-  tools::addCacheOption(app, options.node.cache);
   for (const char* parameter : {"reference_frame", "geometry", "skip_overlapping_pairs", "stale_after",
                                 "tf_cache", "tf_future_tolerance", "threads"}) {
     tools::addParameter(app, nodeParameterTable(), parameter, options.node);

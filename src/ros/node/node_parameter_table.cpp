@@ -44,11 +44,6 @@ ParameterTable<N> ofTheScene() {
           "surface ([round bodies](scene_file.md#bodies)); `auto`: 1 % of the radius")
           .inUnit("m")
           .to(1e6),
-      text<N>(
-          "cache", "a path, or `off`", [](auto& n) -> auto& { return n.cache; },
-          "folder for prepared bodies, used at the next start, unless the scene file names one; empty: the "
-          "user's "
-          "cache ([what is kept](preparation_cache.md))"),
       list<N>(
           "mesh_roots", "a list of texts", [](auto& n) -> auto& { return n.mesh_roots; },
           "where `add_body` and `apply_scene` may read mesh files: `package://` (every package), "

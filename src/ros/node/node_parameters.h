@@ -26,7 +26,6 @@ struct NodeParameters {
   bool automatic_cutoff = false;                 ///< a robot without scene file, and `cutoff` is not set
   bool skip_overlapping_pairs = false;
   double chord_error = 0.0;  ///< m, of a robot without scene file; 0: 1 % of the radius
-  std::string cache;         ///< folder of prepared bodies; empty: the user's, "off": none
   std::string save_folder;   ///< save_scene writes below it; empty: nowhere
   /// Services may read mesh files below these; no value: every package and the scene file's folder.
   std::optional<std::vector<std::string>> mesh_roots;

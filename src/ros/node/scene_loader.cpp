@@ -21,7 +21,6 @@ constexpr const char* kSemanticSuffix = "_semantic";  // of the parameter's name
 // Bodies can be added to this scene.
 Scene emptyScene(const SceneLoadOptions& options) {
   Scene scene;
-  scene.cache = options.cache;
   scene.pool = options.pool ? options.pool : std::make_shared<BodyPool>(options.metric_memory_limit);
   scene.limits = options.limits;
   scene.defaults.pairs = options.default_settings;
@@ -113,7 +112,6 @@ Scene loadScene(const NodeParameters& parameters, const SceneRequest& request, L
   options.mesh_search_path = parameters.mesh_search_folders;
   options.geometry = parameters.geometry;
   options.default_settings = parameters.pair;
-  options.cache = openPreparationCache(parameters.cache);
   options.limits = {parameters.limits.largest_body_count, parameters.limits.largest_pair_count,
                     parameters.limits.largest_triangle_count, parameters.limits.largest_node_count};
   options.mesh_import = parameters.mesh_access.limits;

@@ -22,7 +22,6 @@ void run() {
   NodeParameters loading;
   loading.scene_file = parameters.scene_file;
   loading.robot_description = parameters.robot_description;
-  loading.cache = parameters.cache;
   SceneRequest request = requestScene(loading, node);
   for (; !request.waiting_for.empty() && ros::ok(); request = requestScene(loading, node)) {
     ROS_INFO_STREAM_THROTTLE(5.0, "waiting: " << request.waiting_for);

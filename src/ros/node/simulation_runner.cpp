@@ -43,8 +43,6 @@ const ParameterTable<SimulationNodeParameters>& simulationNodeParameters() {
       text<P>(
           "world_frame", "a tf frame", [](auto& p) -> auto& { return p.world_frame; },
           "tf frame of the simulation's world"),
-      text<P>(
-          "cache", "a path, or `off`", [](auto& p) -> auto& { return p.cache; }, "as the distance node's"),
       number<P>(
           "rate", [](auto& p) -> auto& { return p.rate; }, "publications a second of simulated time")
           .from(0.1)

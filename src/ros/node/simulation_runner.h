@@ -27,7 +27,6 @@ struct SimulationNodeParameters {
   std::string scene_file;
   std::string robot_description = "robot_description";
   std::string world_frame = "world";
-  std::string cache;
   double rate = 100.0;        ///< publications a second of simulated time
   double speed = 1.0;         ///< simulated over real seconds; 0: as fast as it can
   double start_delay = 0.0;   ///< real seconds of standing still at the begin

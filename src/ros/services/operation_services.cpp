@@ -150,8 +150,7 @@ void OperationServices::loadBodies(const std::vector<SceneOperation>& messages,
     // On this thread alone: a worker that reads meshes would be missing in the cycle.
     std::vector<LoadedBody> loaded;
     tbb::task_arena(1).execute([&] {
-      loaded = concave_distance::loadBodies(descriptions, "", package_locator_, scene->pool,
-                                            has_files ? scene->cache : nullptr, scene->limits);
+      loaded = concave_distance::loadBodies(descriptions, "", package_locator_, scene->pool, scene->limits);
     });
     for (std::size_t k = 0; k < loaded.size(); ++k) {
       detail::SceneOperation& operation = operations[places[k]];
@@ -214,8 +213,7 @@ bool OperationServices::addBody(AddBody::Request& request, AddBody::Response& re
     requireRoomForBody(*scene);
     BodyDescription description = toBodyDescription(request, scene->defaults);
     description.mesh_access = mesh_access_;
-    operation.added = loadBody(description, "", package_locator_, scene->pool,
-                               request.primitive.empty() ? scene->cache : nullptr, scene->limits);
+    operation.added = loadBody(description, "", package_locator_, scene->pool, scene->limits);
     operation.added->colour = toColour(request.color, operation.added->colour);
     operation.added->material = scene->defaults.material;
     operation.added->margin = request.margin;

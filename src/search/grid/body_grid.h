@@ -23,8 +23,8 @@ struct GraphMetric {
 /// that its pairs share it. Each part is made at its first use, once for all threads.
 class BodyGrid final : public BodyAttachment {
  public:
-  explicit BodyGrid(const BodyMesh& body) : body_(body), cache_(body.options().cache.get()) {}
-  /// For a search on other nodes than the grid's, to be attached before the first search; not cached.
+  explicit BodyGrid(const BodyMesh& body) : body_(body) {}
+  /// For a search on other nodes than the grid's, to be attached before the first search.
   BodyGrid(const BodyMesh& body, SearchNodes nodes);
   ~BodyGrid() override;
   BodyGrid(const BodyGrid&) = delete;
@@ -57,7 +57,6 @@ class BodyGrid final : public BodyAttachment {
   const GraphMetric& measured() const;
 
   const BodyMesh& body_;
-  PreparationCache* cache_;
   MadeOnce<SearchNodes> nodes_;
   MadeOnce<Reserved> reserved_;
   MadeOnce<GraphMetric> measured_;

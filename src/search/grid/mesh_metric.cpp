@@ -80,14 +80,6 @@ MeshMetric::MeshMetric(const NodeGraph& graph, std::size_t matrix_node_limit)
                     });
 }
 
-MeshMetric::MeshMetric(const NodeGraph& graph, std::vector<float> distances,
-                       std::vector<std::uint16_t> predecessors)
-    : graph_(&graph),
-      node_count_(graph.nodeCount()),
-      has_matrices_(!distances.empty()),
-      distance_(std::move(distances)),
-      predecessor_(std::move(predecessors)) {}
-
 bool MeshMetric::wantsMatrices(std::size_t node_count, std::size_t matrix_node_limit) {
   return node_count <= std::min(matrix_node_limit, kLargestPredecessor);
 }

@@ -21,17 +21,12 @@ class MeshMetric {
   ///        kept, 4 + 2 bytes an entry; beyond it, distances are searched on demand within a bound and
   ///        cached, memory linear in nodes
   MeshMetric(const NodeGraph& graph, std::size_t matrix_node_limit);
-  /// From the matrices of another metric of the same graph, which are taken as they are.
-  MeshMetric(const NodeGraph& graph, std::vector<float> distances, std::vector<std::uint16_t> predecessors);
   /// Whether a graph of so many nodes gets matrices.
   static bool wantsMatrices(std::size_t node_count, std::size_t matrix_node_limit);
   /// Bytes that the matrices of this many nodes take.
   static std::size_t matrixBytes(std::size_t node_count) {
     return node_count * node_count * (sizeof(float) + sizeof(std::uint16_t));
   }
-  /// The matrices row by row; empty when there are none.
-  const std::vector<float>& distances() const { return distance_; }
-  const std::vector<std::uint16_t>& predecessors() const { return predecessor_; }
   bool hasMatrices() const { return has_matrices_; }
   const NodeGraph& graph() const { return *graph_; }
   /// Matrix entry, metres; infinity between shells. Only when hasMatrices().

@@ -138,7 +138,7 @@ std::vector<detail::SceneOperation> LivingScene::additions(const std::vector<Bod
   }
   const std::shared_ptr<const Scene> now = scene();
   std::vector<LoadedBody> loaded;
-  tbb::task_arena(1).execute([&] { loaded = loadBodies(named, "", {}, now->pool, nullptr, now->limits); });
+  tbb::task_arena(1).execute([&] { loaded = loadBodies(named, "", {}, now->pool, now->limits); });
   std::vector<detail::SceneOperation> operations;
   for (std::size_t i = 0; i < named.size(); ++i) {
     operations.push_back(operation(detail::OperationKind::Add, named[i].name));

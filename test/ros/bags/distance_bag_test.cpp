@@ -325,7 +325,7 @@ TEST_F(DistanceBag, EndsItsRowsWhereItIsInterrupted) {
   if (child == 0) {
     if (std::freopen(log_path.c_str(), "w", stderr) == nullptr) _exit(1);
     execl(CONCAVE_DISTANCE_DISTANCE_BAG, "distance_bag", "--scene", folder_.path("boxes.yaml").c_str(),
-          "--bag", folder_.path("run.bag").c_str(), "--cache", "off", "--output", pipe.c_str(), nullptr);
+          "--bag", folder_.path("run.bag").c_str(), "--output", pipe.c_str(), nullptr);
     _exit(1);
   }
   std::ifstream reader(pipe);

@@ -208,7 +208,7 @@ TEST_F(State, ASavedSceneIsTheSameInASecondNode) {
   folder.write("mine.yaml", "bodies: []\n");
   expectRefused(save(folder.path() + "/mine.yaml", true).message, "no scene that save_scene has written");
 
-  const StartedNode node({"__name:=second", "_scene_file:=" + path, "_cache:=off", "_stale_after:=10"});
+  const StartedNode node({"__name:=second", "_scene_file:=" + path, "_stale_after:=10"});
   ASSERT_TRUE(eventually([] { return call<ListBodies>(kSecond + "list_bodies", {}).ready != 0; }));
   const std::vector<std::string> bodies = {"base", "tip", "shelf", "wedge", "pill"};
   ASSERT_TRUE(eventually([] { return std::abs(distanceOf(kSecond, "base", "tip") - 2.0) < 1e-9; }));
