@@ -81,6 +81,9 @@ class Results(unittest.TestCase):
         self.assertIn("NO.md", self.fault())
         self.quote("takes {31} us", "no.csv", "1")
         self.assertIn("no.csv", self.fault())
+        self.write("doc/page.md", "takes 31 us")
+        self.quote("takes {31} us", "tracking.csv", "value('us', pair='peg')", page="doc/page.md")
+        self.assertIn("stand on README", self.fault())
 
     def test_results_without_a_line_and_lines_without_a_file(self):
         (self.root / RESULTS / "new.csv.xz").write_bytes(lzma.compress(b"a\n1\n"))
