@@ -20,9 +20,7 @@ from concave_distance.srv import ListBodies
 
 LOADING_SECONDS = 60.0  # at most, until the bodies are loaded
 FRAMES_SECONDS = 5.0  # at most, until their frames are known
-LIST = 0.5  # height of the markers' legend and list above the robot, over the robot's size
 MUCH_LARGER = 6.0  # than the median body: a floor, a hall, which need not be in view
-LIST_WIDTH = 0.7  # likewise
 ASPECT = 1.3  # width of the picture over its height, at least
 MARGIN = 1.12  # of the distance from which all stands in the picture
 HALF = 0.4  # of the cube that stands for a body, over the body's diameter
@@ -41,14 +39,10 @@ def fitted_view(bodies, yaw, pitch, field_of_view):
     high = [max(position[axis] + HALF * diameter for position, diameter in bodies) for axis in range(3)]
     size = math.dist(low, high)
     focus = [0.5 * (a + b) for a, b in zip(low, high)]
-    focus[2] += 0.5 * LIST * size
     back = (math.cos(yaw) * math.cos(pitch), math.sin(yaw) * math.cos(pitch), math.sin(pitch))
     up = (-math.cos(yaw) * math.sin(pitch), -math.sin(yaw) * math.sin(pitch), math.cos(pitch))
     right = (-math.sin(yaw), math.cos(yaw), 0.0)
     points = [[a - b for a, b in zip(corner, focus)] for corner in itertools.product(*zip(low, high))]
-    top = high[2] + LIST * size - focus[2]
-    half = 0.5 * LIST_WIDTH * size
-    points += [[side * right[0], side * right[1], top] for side in (-half, half)]
     tangent = math.tan(0.5 * field_of_view)
 
     def distance(point):

@@ -102,12 +102,16 @@ void CycleSolver::solveUntil(WorkLimit::Clock::time_point end) {
   for (Turn& turn : turns_) {
     turn.urgency.is_long = turn.pair->seconds_to_finish > kShareOfLong * all;
     turn.urgency.owns_cycle = turn.urgency.is_long && ownsCycle(*turn.pair);
+    turn.urgency.is_last = turn.pair->demand.niches_last;
   }
   sortByUrgency();
   const auto threads = static_cast<double>(arena_.max_concurrency());
   giveThread(0.5 * (threads - 1.0) * all);
   double seconds_after = 0.0;
   for (std::size_t i = turns_.size(); i-- > 0;) {
+    const bool is_before_last =
+        i + 1 < turns_.size() && turns_[i + 1].urgency.is_last && !turns_[i].urgency.is_last;
+    if (is_before_last) seconds_after = 0.0;  // what comes last is left nothing
     turns_[i].seconds_after = seconds_after;
     seconds_after += turns_[i].pair->seconds_to_finish;
   }
@@ -127,7 +131,7 @@ void CycleSolver::solveUntil(WorkLimit::Clock::time_point end) {
 void CycleSolver::giveThread(double seconds_of_others) {
   double seconds = 0.0;
   auto first = turns_.end();
-  for (auto turn = turns_.begin(); turn != turns_.end(); ++turn) {
+  for (auto turn = turns_.begin(); turn != turns_.end() && !turn->urgency.is_last; ++turn) {
     if (!turn->urgency.is_long) {
       seconds += turn->pair->seconds_to_finish;
     } else if (first == turns_.end() || first->pair->cycles_unfinished < turn->pair->cycles_unfinished) {

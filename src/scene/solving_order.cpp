@@ -23,6 +23,7 @@ std::uint32_t overdue(const PairUrgency& pair) {
 }  // namespace
 
 bool isMoreUrgent(const PairUrgency& l, const PairUrgency& r) {
+  if (l.is_last != r.is_last) return r.is_last;
   if (overdue(l) != overdue(r)) return overdue(l) > overdue(r);
   if (l.is_long != r.is_long) return r.is_long;
   if (l.owns_cycle != r.owns_cycle) return l.owns_cycle;

@@ -79,7 +79,7 @@ PairHeading headingOf(const BenchmarkPair& pair, const Level& level) {
 // Returns all that is drawn for a pair alone in its scene but the label.
 std::vector<visualization_msgs::Marker> drawnMarkers(const PairNiches& message, const MarkerStyle& style) {
   std::vector<visualization_msgs::Marker> markers;
-  for (const DrawnPair& drawn : selectPairs({&message}, style).drawn) {
+  for (const DrawnPair& drawn : selectPairs({&message}, style)) {
     const std::vector<visualization_msgs::Marker> of_pair = nicheMarkers(drawn, style);
     markers.insert(markers.end(), of_pair.begin(), of_pair.end());
   }

@@ -197,6 +197,37 @@ TEST_P(CycleEnd, LeavesProvenDistancesAndFinishesEachListInLaterCycles) {
   EXPECT_LE(longest, 60);
 }
 
+// A cold pair takes what is left: one thread reaches a list only when those before it are finished.
+TEST_P(CycleEnd, FindsTheLastNichesAfterAllOthers) {
+  if (GetParam() != 1) return;
+  const Poses poses = posesAt(0);
+  std::size_t nearest = 0;
+  tracker.update(poses, 0.0, {true, true, false, false});
+  for (std::size_t index = 1; index < scene.pairs.size(); ++index) {
+    const auto distance = [&](std::size_t pair) { return tracker.pairs()[pair]->solution.distance; };
+    if (distance(index) < distance(nearest)) nearest = index;
+  }
+  const double cold = secondsOfCycle(tracker, 0, {true, true, true, false});
+  std::vector<PairDemand> demand(scene.pairs.size(), {true, true, true, false});
+  demand[nearest].niches_last = true;  // it would come first
+  const auto locate = [&](std::size_t index) {
+    PairInput input;
+    input.a_from_b = poseOf(poses, scene.pairs[index]);
+    return input;
+  };
+  std::size_t put_off = 0;
+  for (const double share : {0.3, 0.5, 0.7, 0.9, 5.0}) {
+    SceneTracker fresh({1, nullptr});
+    fresh.setScene(scene);
+    put_off += fresh.update(demand, locate, in(share * cold)).put_off;
+    if (fresh.pairs()[nearest]->solution.niches.empty()) continue;
+    for (std::size_t index = 0; index < scene.pairs.size(); ++index) {
+      EXPECT_TRUE(index == nearest || !fresh.pairs()[index]->put_off) << scene.pairs[index].name;
+    }
+  }
+  EXPECT_GT(put_off, 0U) << "the end has to strike for this test to say anything";
+}
+
 INSTANTIATE_TEST_SUITE_P(Threads, CycleEnd, ::testing::Values(1U, 2U));
 
 }  // namespace

@@ -44,6 +44,16 @@ TEST(SolvingOrder, TakesLongListsAfterTheOthersButForThoseThatHaveWaited) {
   EXPECT_TRUE(isMoreUrgent(long_list(0.9, kOverdue, false), {0.1, 0.0, 0}));
 }
 
+TEST(SolvingOrder, TakesTheLastListsAfterAllOthers) {
+  const auto last = [](double distance, std::uint32_t waited) {
+    return PairUrgency{distance, 0.0, waited, false, false, true};
+  };
+  constexpr std::uint32_t kOverdue = kLongestWait * kCyclesOfLong;
+  EXPECT_TRUE(isMoreUrgent({0.9, 0.0, 0, true}, last(0.0, kOverdue))) << "however long they have waited";
+  EXPECT_FALSE(isMoreUrgent(last(0.0, kOverdue), {0.9, 0.0, 0, true}));
+  EXPECT_TRUE(isMoreUrgent(last(0.1, 0), last(0.2, 0)));
+}
+
 TEST(SolvingOrder, LetsNoPairStarve) {
   EXPECT_TRUE(isMoreUrgent({5.0, -1.0, kLongestWait}, {0.0, 9.0, kLongestWait - 1}));
   EXPECT_TRUE(isMoreUrgent({5.0, -1.0, kLongestWait + 1}, {0.0, 9.0, kLongestWait}));
@@ -72,7 +82,8 @@ TEST(SolvingOrder, IsAStrictWeakOrder) {
   for (int k = 0; k < 60; ++k) {
     const auto one_of = [&] { return 0.1 * static_cast<double>(uniformIndex(engine, 4)); };
     pairs.push_back({k % 7 == 0 ? kNotComputed : one_of(), k % 5 == 0 ? kNotComputed : one_of() - 0.2,
-                     static_cast<std::uint32_t>(uniformIndex(engine, 6))});
+                     static_cast<std::uint32_t>(uniformIndex(engine, 6)), false, false,
+                     uniformIndex(engine, 2) == 0});
   }
   const auto same = [](const PairUrgency& l, const PairUrgency& r) {
     return !isMoreUrgent(l, r) && !isMoreUrgent(r, l);

@@ -22,6 +22,8 @@ struct PairDemand {
   bool due = false;      ///< an answer is wanted in this cycle
   bool niches = false;   ///< with the niches
   bool effects = false;  ///< with the effects that its settings ask for
+  /// Its niches are found after those of all other pairs, in what a cycle with an end has left.
+  bool niches_last = false;
 };
 
 /// Says where B is, seen from A.

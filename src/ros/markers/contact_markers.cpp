@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "marker_parts.h"
 #include "ros/messages/conversions.h"
 
 namespace concave_distance {
@@ -27,6 +28,10 @@ Eigen::Vector3d toEigen(const geometry_msgs::Vector3& vector) {
   return {vector.x, vector.y, vector.z};
 }
 
+std_msgs::ColorRGBA contactColor() {
+  return makeColor({0.90, 0.20, 0.75});
+}
+
 // A disc as large as the contact's area, across the normal.
 void drawArea(const Contact& contact, double scale, Marker& marker) {
   marker.type = Marker::CYLINDER;
@@ -35,7 +40,7 @@ void drawArea(const Contact& contact, double scale, Marker& marker) {
       toQuaternion(Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), toEigen(contact.normal)));
   marker.scale.x = marker.scale.y = 2.0 * std::sqrt(contact.contact_area / M_PI);
   marker.scale.z = kDiscHeight * scale;
-  marker.color = contactTextColor();
+  marker.color = contactColor();
   marker.color.a = 0.5F;
 }
 
@@ -63,16 +68,6 @@ std::string contactText(const Contact& contact) {
 
 }  // namespace
 
-std_msgs::ColorRGBA normalForceColor() {
-  return makeColor({0.85, 0.05, 0.10});
-}
-std_msgs::ColorRGBA frictionColor() {
-  return makeColor({0.10, 0.40, 0.95});
-}
-std_msgs::ColorRGBA contactTextColor() {
-  return makeColor({0.90, 0.20, 0.75});
-}
-
 Marker emptyContactMarker(const PairContactState& pair, const char* kind, std::size_t index) {
   const std::uint64_t id = pair.contacts[index].id;
   return emptyMarker(
@@ -99,31 +94,39 @@ std::vector<Marker> contactMarkers(const PairContactState& pair, const std::vect
     }
     if (contact.has_force != 0 && contact.normal_force > 0.0) {
       Marker& arrow = add("normal_force");
-      arrow.color = normalForceColor();
+      arrow.color = makeColor({0.85, 0.05, 0.10});
       drawForce(contact.force_point, contact.normal_force / style.force_scale * toEigen(contact.normal),
                 style.scale, arrow);
     }
     if (contact.has_friction != 0 && toEigen(contact.friction).norm() > 0.0) {
       Marker& arrow = add("friction");
-      arrow.color = frictionColor();
+      arrow.color = makeColor({0.10, 0.40, 0.95});
       drawForce(contact.force_point, toEigen(contact.friction) / style.force_scale, style.scale, arrow);
     }
   }
   return markers;
 }
 
-std::vector<Label> contactLabels(const PairContactState& pair) {
-  std::vector<Label> labels;
-  for (std::size_t k = 0; k < pair.contacts.size(); ++k) {
-    const Contact& contact = pair.contacts[k];
-    if (!toEigen(contact.centroid).allFinite()) continue;
-    Marker text = emptyContactMarker(pair, "contact_text", k);
-    text.type = Marker::TEXT_VIEW_FACING;
-    text.color = contactTextColor();
-    text.text = pair.body_a + " - " + pair.body_b + ": " + contactText(contact);
-    labels.push_back({text, toEigen(contact.centroid), contact.has_depth != 0 ? contact.depth : 0.0});
+std::vector<Marker> contactLabels(const std::vector<PairContactState>& pairs, std::size_t most,
+                                  double scale) {
+  std::vector<std::pair<double, Marker>> labels;
+  for (const PairContactState& pair : pairs) {
+    for (std::size_t k = 0; k < pair.contacts.size(); ++k) {
+      const Contact& contact = pair.contacts[k];
+      if (!toEigen(contact.centroid).allFinite()) continue;
+      Marker label = emptyContactMarker(pair, "contact_text", k);
+      label.color = contactColor();
+      makeLabel(pair.body_a + " - " + pair.body_b + ": " + contactText(contact), toEigen(contact.centroid),
+                scale, label);
+      labels.emplace_back(contact.has_depth != 0 ? contact.depth : 0.0, std::move(label));
+    }
   }
-  return labels;
+  std::stable_sort(labels.begin(), labels.end(),
+                   [](const auto& left, const auto& right) { return left.first > right.first; });
+  if (most > 0 && labels.size() > most) labels.resize(most);
+  std::vector<Marker> markers;
+  for (auto& label : labels) markers.push_back(std::move(label.second));
+  return markers;
 }
 
 }  // namespace concave_distance

@@ -6,14 +6,9 @@
 #include <cstddef>
 #include <vector>
 
-#include "marker_parts.h"
 #include "marker_style.h"
 
 namespace concave_distance {
-
-std_msgs::ColorRGBA normalForceColor();
-std_msgs::ColorRGBA frictionColor();
-std_msgs::ColorRGBA contactTextColor();
 
 /// A marker of the pair's contact `index`, without a type: namespace `<pair>/<kind>`; its id is the contact's
 /// (its low 31 bits), that of a contact without one -1 minus its place.
@@ -30,8 +25,9 @@ std::vector<visualization_msgs::Marker> contactMarkers(const PairContactState& p
                                                        const std::vector<bool>& without_disc,
                                                        const MarkerStyle& style);
 
-/// Names the bodies, the depth, the force and the largest pressure of each contact: namespace
-/// `<pair>/contact_text`. The place of each is its centroid.
-std::vector<Label> contactLabels(const PairContactState& pair);
+/// Names the bodies, the depth, the force and the largest pressure of the deepest contacts of all pairs, at
+/// the centroid of each: namespace `<pair>/contact_text`. @param most labels; 0: all
+std::vector<visualization_msgs::Marker> contactLabels(const std::vector<PairContactState>& pairs,
+                                                      std::size_t most, double scale);
 
 }  // namespace concave_distance

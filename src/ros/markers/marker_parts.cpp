@@ -4,10 +4,13 @@
 #include <initializer_list>
 
 #include "base/number_text.h"
+#include "ros/messages/conversions.h"
 
 namespace concave_distance {
 namespace {
 
+constexpr double kLetterShare = 2.0;  // height of the letters over the scale of the markers
+constexpr double kLift = 1.0;         // height of a label's middle above its point, in letters
 constexpr double kRoundSteps[] = {1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0};
 
 struct Unit {
@@ -47,13 +50,12 @@ visualization_msgs::Marker emptyMarker(const std_msgs::Header& header, const std
   return marker;
 }
 
-visualization_msgs::Marker textMarker(const std_msgs::Header& header, const std::string& ns, std::int32_t id,
-                                      const std::string& text, const std_msgs::ColorRGBA& color) {
-  visualization_msgs::Marker marker = emptyMarker(header, ns, id);
+void makeLabel(const std::string& text, const Eigen::Vector3d& point, double scale,
+               visualization_msgs::Marker& marker) {
   marker.type = visualization_msgs::Marker::TEXT_VIEW_FACING;
   marker.text = text;
-  marker.color = color;
-  return marker;
+  marker.scale.z = kLetterShare * scale;
+  marker.pose.position = toPoint(point + kLift * marker.scale.z * Eigen::Vector3d::UnitZ());
 }
 
 std::string lengthText(double metres) {

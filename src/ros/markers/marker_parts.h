@@ -13,16 +13,11 @@ std_msgs::ColorRGBA makeColor(const Eigen::Vector3d& red_green_blue, double opac
 /// A marker without a type, at the origin of the header's frame, which rviz shows until it is deleted.
 visualization_msgs::Marker emptyMarker(const std_msgs::Header& header, const std::string& ns,
                                        std::int32_t id);
-/// A text that faces the camera, without a place and a height.
-visualization_msgs::Marker textMarker(const std_msgs::Header& header, const std::string& ns, std::int32_t id,
-                                      const std::string& text, const std_msgs::ColorRGBA& color);
 
-/// A row of the list above the scene, and the place in the scene that it is about.
-struct Label {
-  visualization_msgs::Marker text;
-  Eigen::Vector3d place = Eigen::Vector3d::Zero();  ///< reference frame, m
-  double depth = 0.0;                               ///< of a contact, where it is known, m
-};
+/// Makes the marker a text that faces the camera, just above a point of the header's frame.
+/// @param scale of the markers, > 0 m
+void makeLabel(const std::string& text, const Eigen::Vector3d& point, double scale,
+               visualization_msgs::Marker& marker);
 
 /// A length with three digits and its unit: "0.42 mm", "12.3 mm", "456 mm", "1.24 m"; below 10 um "<0.01 mm".
 std::string lengthText(double metres);

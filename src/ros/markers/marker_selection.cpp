@@ -31,7 +31,7 @@ bool hasMarkers(const PairNiches& pair) {
   return pair.nearest.has_distance != 0 && (pair.nearest.has_points != 0 || !pair.niches.empty());
 }
 
-MarkerSelection selectPairs(const std::vector<const PairNiches*>& pairs, const MarkerStyle& style) {
+std::vector<DrawnPair> selectPairs(const std::vector<const PairNiches*>& pairs, const MarkerStyle& style) {
   std::vector<const PairNiches*> by_distance;
   std::copy_if(pairs.begin(), pairs.end(), std::back_inserter(by_distance),
                [](const PairNiches* pair) { return hasMarkers(*pair); });
@@ -39,16 +39,14 @@ MarkerSelection selectPairs(const std::vector<const PairNiches*>& pairs, const M
                    [](const PairNiches* left, const PairNiches* right) {
                      return left->nearest.distance < right->nearest.distance;
                    });
-  MarkerSelection selection;
-  selection.candidates = by_distance.size();
+  std::vector<DrawnPair> drawn;
   for (const PairNiches* pair : by_distance) {
-    const bool is_near = style.pair_count == 0 || selection.drawn.size() < style.pair_count;
-    if (is_near || pair->nearest.warning != 0) {
-      selection.drawn.push_back({pair, std::min<std::size_t>(1, pair->niches.size())});
-    }
+    const bool is_near = style.pair_count == 0 || drawn.size() < style.pair_count;
+    if (!is_near && pair->nearest.warning == 0) continue;
+    drawn.push_back({pair, std::min<std::size_t>(1, pair->niches.size()), drawn.empty()});
   }
-  addFartherNiches(selection.drawn, style.niche_count);
-  return selection;
+  addFartherNiches(drawn, style.niche_count);
+  return drawn;
 }
 
 std::set<std::size_t> warnedBodies(const Scene& scene, const std::vector<DrawnPair>& drawn, double largest) {

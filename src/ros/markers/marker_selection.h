@@ -15,21 +15,16 @@ namespace concave_distance {
 struct DrawnPair {
   const PairNiches* pair = nullptr;
   std::size_t niche_count = 0;  ///< number of its nearest niches; 0: they are not known
+  bool is_nearest = false;      ///< of all pairs
 };
 
 /// Whether the message has a distance with its points, so that there is a line to draw.
 bool hasMarkers(const PairNiches& pair);
 
-/// The pairs that the markers show.
-struct MarkerSelection {
-  std::vector<DrawnPair> drawn;  ///< ascending by distance
-  std::size_t candidates = 0;    ///< number of pairs that could be drawn
-};
-
-/// Selects the style.pair_count nearest pairs and every pair in warning. Of each, the nearest niche is drawn
-/// or, while its niches are not known, its shortest distance; other niches of these pairs follow, nearest
-/// first, up to style.niche_count in all.
-MarkerSelection selectPairs(const std::vector<const PairNiches*>& pairs, const MarkerStyle& style);
+/// Selects the style.pair_count nearest pairs and every pair in warning, ascending by distance. Of each, the
+/// nearest niche is drawn or, while its niches are not known, its shortest distance; other niches of these
+/// pairs follow, nearest first, up to style.niche_count in all.
+std::vector<DrawnPair> selectPairs(const std::vector<const PairNiches*>& pairs, const MarkerStyle& style);
 
 /// The bodies to tint, as indices into scene.bodies: of a warning, what is warned of and the nearest link of
 /// the robot; of two links or two obstacles, both.

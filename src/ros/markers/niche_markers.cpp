@@ -4,13 +4,14 @@
 #include <cmath>
 #include <utility>
 
+#include "marker_parts.h"
 #include "ros/messages/conversions.h"
 
 namespace concave_distance {
 namespace {
 
 constexpr double kLineShare = 0.4;   // line width over the diameter of the points
-constexpr double kOtherShare = 0.5;  // size of the niches that are not the nearest
+constexpr double kOtherShare = 0.5;  // size of all but the nearest niche of the nearest pair
 constexpr float kOtherOpacity = 0.5F;
 constexpr double kLongShare = 0.5;   // points take up at most this share of a line each ...
 constexpr double kLeastShare = 0.4;  // ... but are not smaller than this share of their size
@@ -71,10 +72,6 @@ void appendCircle(const geometry_msgs::Point& centre, const Eigen::Vector3d& nor
 
 }  // namespace
 
-bool isDashed(const PairNiches& pair) {
-  return isStale(pair) || isUncertain(pair);
-}
-
 std_msgs::ColorRGBA distanceColor(double distance, const MarkerStyle& style) {
   const double share = std::clamp((distance - style.near) / (style.far - style.near), 0.0, 1.0);
   // Visible on light and dark backgrounds.
@@ -89,12 +86,8 @@ std_msgs::ColorRGBA warningColor() {
   return makeColor({0.90, 0.0, 0.05});
 }
 
-std_msgs::ColorRGBA greyColor() {
-  return makeColor({0.45, 0.45, 0.45});
-}
-
 std_msgs::ColorRGBA pairColor(const PairNiches& pair, const MarkerStyle& style) {
-  if (isStale(pair)) return greyColor();
+  if (isStale(pair)) return makeColor({0.45, 0.45, 0.45});
   return pair.nearest.warning != 0 ? warningColor() : distanceColor(pair.nearest.distance, style);
 }
 
@@ -103,7 +96,7 @@ std::vector<visualization_msgs::Marker> nicheMarkers(const DrawnPair& drawn, con
   std::vector<visualization_msgs::Marker> markers;
   bool is_nearest = true;
   for (const Niche& niche : drawnNiches(pair, drawn.niche_count)) {
-    const double full = is_nearest ? style.scale : kOtherShare * style.scale;
+    const double full = is_nearest && drawn.is_nearest ? style.scale : kOtherShare * style.scale;
     const double size = std::clamp(kLongShare * niche.distance, kLeastShare * full, full);
     std_msgs::ColorRGBA color = is_nearest ? pairColor(pair, style) : distanceColor(niche.distance, style);
     color.a = is_nearest ? 1.0F : kOtherOpacity;
@@ -120,7 +113,7 @@ std::vector<visualization_msgs::Marker> nicheMarkers(const DrawnPair& drawn, con
     points.points = {niche.point_a, niche.point_b};
     visualization_msgs::Marker& line = add("line", visualization_msgs::Marker::LINE_LIST, kLineShare * size);
     line.points = {niche.point_a, niche.point_b};
-    if (is_nearest && isDashed(pair)) dash(line.points);
+    if (is_nearest && (isStale(pair) || isUncertain(pair))) dash(line.points);
     const Eigen::Vector3d normal(niche.normal.x, niche.normal.y, niche.normal.z);
     if (niche.kind != Niche::KIND_POINT && niche.extent > 0.0 && normal.squaredNorm() > 0.0) {
       visualization_msgs::Marker& rim =
@@ -133,7 +126,7 @@ std::vector<visualization_msgs::Marker> nicheMarkers(const DrawnPair& drawn, con
   return markers;
 }
 
-Label nicheLabel(const PairNiches& pair, const MarkerStyle& style) {
+visualization_msgs::Marker nicheLabel(const PairNiches& pair, const MarkerStyle& style) {
   const Niche nearest = drawnNiches(pair, 1).front();
   const bool overlapping = pair.nearest.status.code == PairStatus::PENETRATING;
   std::string text = pair.nearest.body_a + " - " + pair.nearest.body_b + ": " +
@@ -142,11 +135,12 @@ Label nicheLabel(const PairNiches& pair, const MarkerStyle& style) {
   if (isUncertain(pair) && pair.nearest.has_lower_bound != 0) {
     text += ", at least " + lengthText(pair.nearest.lower_bound);
   }
-  Label label;
-  label.text = textMarker(pair.header, pair.nearest.pair + "/text", 0, text, pairColor(pair, style));
-  label.place =
+  visualization_msgs::Marker label = emptyMarker(pair.header, pair.nearest.pair + "/text", 0);
+  const Eigen::Vector3d middle =
       0.5 * Eigen::Vector3d(nearest.point_a.x + nearest.point_b.x, nearest.point_a.y + nearest.point_b.y,
                             nearest.point_a.z + nearest.point_b.z);
+  makeLabel(text, middle, style.scale, label);
+  label.color = pairColor(pair, style);
   return label;
 }
 

@@ -8,20 +8,18 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "concave_distance/scene/scene.h"
-#include "label_numbers.h"
-#include "marker_demand.h"
-#include "marker_layout.h"
 #include "niche_markers.h"
 #include "pressure_markers.h"
 #include "ros/messages/published_pair.h"
 
 namespace concave_distance {
 
-/// Draws a scene: nearest pairs, contacts, their numbers, above the scene the legend and a row for each of
-/// them, red bodies, and deletions of earlier markers. One object per topic.
+/// Draws a scene: nearest pairs, contacts, a label at each of them, red bodies, and deletions of earlier
+/// markers. One object per topic.
 class SceneMarkers {
  public:
   /// @param style as configured; 0 means automatic
@@ -33,23 +31,24 @@ class SceneMarkers {
                                        const PublishedPairs& pairs, const std::vector<PairNiches>& niches,
                                        const std::vector<PairContactState>& contacts,
                                        const std_msgs::Header& header, double lifetime);
-  /// Which niches are needed for it, in which cycle.
-  MarkerDemand& demand() { return demand_; }
+  /// Returns whether the pair was in the last picture: the next one needs its niches.
+  bool draws(const std::string& pair) const { return drawn_.count(pair) != 0; }
   /// For when there is no subscriber any more: nothing has to be deleted.
   void forget();
   bool empty() const { return shown_.empty(); }
 
  private:
   using Markers = std::vector<visualization_msgs::Marker>;
+  std::vector<const PairNiches*> withStalePairs(const std::vector<PairNiches>& messages);
   void drawContacts(const Scene& scene, const PublishedPairs& pairs,
-                    const std::vector<PairContactState>& contacts, Markers& markers);
+                    const std::vector<PairContactState>& contacts, const MarkerStyle& style,
+                    Markers& markers);
   /// Adds red copies that appear or are due for renewal: they are large. Returns those that stay.
-  ShownMarkers drawWarnings(const Scene& scene, const std::vector<DrawnPair>& drawn, ros::Time now,
-                            double lifetime, Markers& markers);
+  ShownMarkers drawWarnings(const Scene& scene, const std::vector<DrawnPair>& drawn, double scale,
+                            ros::Time now, double lifetime, Markers& markers);
 
-  MarkerDemand demand_;
-  MarkerLayout layout_;
-  LabelNumbers numbers_;
+  double size_ = 0.0;  ///< of the scene in the last picture, m; 0: no body has been located
+  std::unordered_map<std::string, PairNiches> drawn_;  ///< by pair, in the last picture
   PressureScale pressures_;
   ShownMarkers shown_;
   /// The red bodies by marker id, as they were drawn: an edit may have moved one.

@@ -25,7 +25,6 @@ WorkLimit::Clock::time_point endOfCycle(WorkLimit::Clock::time_point start, doub
 // A marker lives for this many marker periods, but never shorter than the seconds below.
 constexpr double kMarkerPeriods = 5.0;
 constexpr double kShortestMarkerLife = 0.5;
-constexpr double kMarkerShare = 0.25;   // of the period, for niches that nobody but the markers needs
 constexpr double kWarningPeriod = 5.0;  // s, between two warnings of the same kind
 
 std::vector<std::string> failingPairs(const PublishedPairs& pairs) {
@@ -134,7 +133,7 @@ CycleRecord CycleRunner::runCycle(ros::Time now, WorkLimit::Clock::time_point st
   const bool marker_cycle = cycles_until_markers_ == 0;
   cycles_until_markers_ = marker_cycle ? static_cast<std::uint64_t>(std::lround(rate_ / marker_rate)) - 1
                                        : cycles_until_markers_ - 1;
-  publishers_.readDemand(*served_, {publish_markers_, contact_markers_, marker_cycle, kMarkerShare / rate_});
+  publishers_.readDemand(*served_, {publish_markers_, contact_markers_, marker_cycle});
   CycleRecord record;
   // One more cycle after the last subscriber has gone ends what it needed. After that, pairs without
   // subscribers cost nothing.

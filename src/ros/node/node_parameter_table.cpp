@@ -157,12 +157,11 @@ ParameterTable<N> ofTheMarkers() {
       count<N>(
           "marker_niche_count", [](auto& n) -> auto& { return n.marker.niche_count; },
           "niches drawn in all of these pairs; the nearest one of each is always drawn; 0: all. As many "
-          "contacts "
-          "are labelled, the deepest first, and at most 50 labels are shown")
+          "contacts are labelled, the deepest first")
           .to(1e6),
       automatic<N>(
           "marker_scale", [](auto& n) -> auto& { return n.marker.scale; },
-          "diameter of the nearest niche's points; `auto`: from the size of the scene "
+          "diameter of the nearest points; `auto`: from the size of the scene "
           "([markers](markers.md))")
           .inUnit("m")
           .to(1e6),
@@ -180,9 +179,6 @@ ParameterTable<N> ofTheMarkers() {
 
 ParameterTable<N> ofTheDrawing() {
   return {
-      flag<N>(
-          "show_legend", [](auto& n) -> auto& { return n.marker.legend; },
-          "show a text above the scene that explains the markers"),
       flag<N>(
           "publish_contact_markers", [](auto& n) -> auto& { return n.publish_contact_markers; },
           "draw contacts too, of pairs with effects")

@@ -149,7 +149,6 @@ void TopicPublishers::readDemand(const ServedScene& served, const MarkerOptions&
   are_markers_due_ = markers.due;
   // When markers are switched off, what is shown has to be deleted once more.
   markers_due_ = markers.due && (markers_wanted_ || !drawing_->empty());
-  drawing_->demand().begin(markers.niche_seconds);
 }
 
 PairDemand TopicPublishers::demandOf(const ServedScene& served, std::size_t place,
@@ -172,7 +171,9 @@ PairDemand TopicPublishers::demandOf(const ServedScene& served, std::size_t plac
   // A contact's id is its niche's.
   pair.niches = own_niches || rows || pair.effects;
   if (!pair.niches && detail::hasNiches(*tracked.body_a) && detail::hasNiches(*tracked.body_b)) {
-    pair.niches = niches_wanted_ || (markers_wanted_ && drawing_->demand().wantsNiches(tracked.origin->name));
+    pair.niches_last = !niches_wanted_ && markers_wanted_ && are_markers_due_ &&
+                       provesDistance(settings.tracker.accuracy) && drawing_->draws(tracked.origin->name);
+    pair.niches = niches_wanted_ || pair.niches_last;
   }
   return pair;
 }
@@ -186,7 +187,6 @@ PublishReport TopicPublishers::publish(const ServedScene& served, const Publishe
                                        const OtherPairs& others, double marker_lifetime, ros::Time now) {
   PublishReport report;
   messages_.clear();
-  drawing_->demand().take(pairs);
   const bool in_lists = distances_wanted_ || niches_wanted_ || markers_due_;
   for (std::size_t index = 0; index < pairs.size(); ++index) {
     const PublishedPair& pair = *pairs[index];

@@ -50,9 +50,8 @@ struct PublishReport {
 /// Holds what the parameters say of the markers, and the cycle.
 struct MarkerOptions {
   bool publish = true;
-  bool contacts = true;        ///< beside the niches
-  bool due = true;             ///< they are sent in this cycle when somebody listens
-  double niche_seconds = 0.0;  ///< in a cycle, on average, for the niches that they alone need
+  bool contacts = true;  ///< beside the niches
+  bool due = true;       ///< they are sent in this cycle when somebody listens
 };
 
 /// Every topic of the cycle: who listens to what, and one cycle's messages.

@@ -1,9 +1,11 @@
 // Rules of the picture: which of many pairs are drawn, how numbers are written, which region is shown.
 #include <gtest/gtest.h>
 
-#include "ros/markers/marker_layout.h"
+#include <cmath>
+
 #include "ros/markers/marker_parts.h"
 #include "ros/markers/marker_selection.h"
+#include "ros/markers/scene_size.h"
 
 namespace concave_distance::marker_rules_test {
 namespace {
@@ -41,34 +43,44 @@ TEST(SelectPairs, TakesTheNearestAndThoseInWarning) {
   style.niche_count = 6;
   std::vector<const PairNiches*> marked;
   for (const PairNiches& pair : pairs) marked.push_back(&pair);
-  const std::vector<DrawnPair> drawn = selectPairs(marked, style).drawn;
+  const std::vector<DrawnPair> drawn = selectPairs(marked, style);
   ASSERT_EQ(drawn.size(), 4U);
   EXPECT_EQ(drawn[0].pair, &pairs[7]);
   EXPECT_EQ(drawn[1].pair, &pairs[6]);
   EXPECT_EQ(drawn[2].pair, &pairs[4]);
   EXPECT_EQ(drawn[3].pair, &pairs[0]);
+  for (const DrawnPair& pair : drawn) EXPECT_EQ(pair.is_nearest, pair.pair == &pairs[7]);
   EXPECT_EQ(drawn[0].niche_count, 3U) << "what the four nearest leave of six goes to the next nearest";
   EXPECT_EQ(drawn[1].niche_count, 1U);
   style.pair_count = style.niche_count = 0;
-  const std::vector<DrawnPair> all = selectPairs(marked, style).drawn;
+  const std::vector<DrawnPair> all = selectPairs(marked, style);
   ASSERT_EQ(all.size(), 7U);
   for (const DrawnPair& pair : all) EXPECT_EQ(pair.niche_count, 3U);
 }
 
 TEST(UsualRegion, LeavesOutAFloorAndWhatLiesFarOff) {
-  std::vector<LocatedBody> bodies;
+  std::vector<Eigen::AlignedBox3d> boxes;
   for (int k = 0; k < 5; ++k) {
     const Eigen::Vector3d corner(static_cast<double>(k), 0.0, 0.0);
-    bodies.push_back(
-        {bodies.size(), {corner, corner + Eigen::Vector3d::Ones()}, Eigen::Isometry3d::Identity()});
+    boxes.emplace_back(corner, corner + Eigen::Vector3d::Ones());
   }
-  const Eigen::AlignedBox3d alone = usualRegion(bodies);
-  bodies.push_back(
-      {5, {Eigen::Vector3d(-15, -15, -0.1), Eigen::Vector3d(15, 15, 0)}, Eigen::Isometry3d::Identity()});
-  bodies.push_back(
-      {6, {Eigen::Vector3d(1000, 0, 0), Eigen::Vector3d(1001, 1, 1)}, Eigen::Isometry3d::Identity()});
-  EXPECT_TRUE(usualRegion(bodies).isApprox(alone));
+  const Eigen::AlignedBox3d alone = usualRegion(boxes);
+  boxes.emplace_back(Eigen::Vector3d(-15, -15, -0.1), Eigen::Vector3d(15, 15, 0));
+  boxes.emplace_back(Eigen::Vector3d(1000, 0, 0), Eigen::Vector3d(1001, 1, 1));
+  EXPECT_TRUE(usualRegion(boxes).isApprox(alone));
   EXPECT_TRUE(usualRegion({}).isEmpty());
+}
+
+TEST(SceneSize, IsTheDiagonalAndStaysUntilItHasChangedByATenth) {
+  const auto cube = [](double side) {
+    return std::vector<Eigen::AlignedBox3d>{{Eigen::Vector3d::Zero(), Eigen::Vector3d::Constant(side)}};
+  };
+  const double size = sceneSize(cube(1.0), 0.0);
+  EXPECT_NEAR(size, std::sqrt(3.0), 1e-12);
+  EXPECT_EQ(sceneSize(cube(1.09), size), size);
+  EXPECT_EQ(sceneSize(cube(0.91), size), size);
+  EXPECT_EQ(sceneSize(cube(1.11), size), sceneSize(cube(1.11), 0.0));
+  EXPECT_EQ(sceneSize({}, size), size) << "nothing is located";
 }
 
 }  // namespace

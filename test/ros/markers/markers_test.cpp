@@ -52,7 +52,7 @@ MarkerStyle nicheStyle() {
 }
 
 std::vector<Marker> draw(const PairNiches& pair) {
-  return nicheMarkers({&pair, pair.niches.size()}, nicheStyle());
+  return nicheMarkers({&pair, pair.niches.size(), true}, nicheStyle());
 }
 
 const Marker* find(const std::vector<Marker>& markers, const std::string& ns, int id) {
@@ -77,16 +77,28 @@ TEST(NicheMarkers, CarryTheNichesIdsAndEmphasiseTheNearest) {
   EXPECT_EQ(nicheMarkers({&pair, 1}, nicheStyle()).size(), 2U) << "no more niches than asked for";
 }
 
-TEST(NicheLabel, CarriesTheNamesAndTheDistanceOfTheNearestNiche) {
+TEST(NicheMarkers, DrawTheNearestOfAllPairsThickAndTheOthersThin) {
+  const PairNiches pair = pairWithNiches({41});
+  const double thick = find(draw(pair), "a/b/line", 41)->scale.x;
+  const std::vector<Marker> other = nicheMarkers({&pair, 1, false}, nicheStyle());
+  EXPECT_LT(find(other, "a/b/line", 41)->scale.x, 0.6 * thick);
+  EXPECT_EQ(find(other, "a/b/line", 41)->color.a, 1.0F);
+}
+
+TEST(NicheLabel, CarriesTheNamesAndTheDistanceOfTheNearestNicheAboveTheMiddleOfItsLine) {
   PairNiches pair = pairWithNiches({41, 7});
   pair.nearest.body_a = "arm";
   pair.nearest.body_b = "shelf";
-  const Label label = nicheLabel(pair, nicheStyle());
-  EXPECT_EQ(label.text.ns, "a/b/text");
-  EXPECT_EQ(label.text.text, "arm - shelf: 100 mm");
-  EXPECT_EQ(label.place, Eigen::Vector3d(0.05, 0.0, 0.0));
+  const Marker label = nicheLabel(pair, nicheStyle());
+  EXPECT_EQ(label.ns, "a/b/text");
+  EXPECT_EQ(label.text, "arm - shelf: 100 mm");
+  EXPECT_EQ(label.type, Marker::TEXT_VIEW_FACING);
+  EXPECT_NEAR(label.pose.position.x, 0.05, 1e-12);
+  EXPECT_EQ(label.pose.position.y, 0.0);
+  EXPECT_GE(label.pose.position.z, 0.5 * label.scale.z) << "it covers nothing of the line";
+  EXPECT_LE(label.pose.position.z, 2.0 * label.scale.z);
   pair.nearest.status.code = PairStatus::PENETRATING;
-  EXPECT_EQ(nicheLabel(pair, nicheStyle()).text.text, "arm - shelf: overlap");
+  EXPECT_EQ(nicheLabel(pair, nicheStyle()).text, "arm - shelf: overlap");
 }
 
 TEST(NicheMarkers, DashTheLineOfADistanceThatIsNotCertainOrStale) {
@@ -102,14 +114,15 @@ TEST(NicheMarkers, DashTheLineOfADistanceThatIsNotCertainOrStale) {
     EXPECT_EQ(line.points.size(), 10U);
     EXPECT_NEAR(line.points.back().x, 0.1, 1e-12);
     EXPECT_EQ(find(markers, "a/b/line", 2)->points.size(), 2U);
-    const std::string text = nicheLabel(pair, nicheStyle()).text.text;
+    const std::string text = nicheLabel(pair, nicheStyle()).text;
     EXPECT_NE(text.find("100 mm, at least 80.0 mm"), std::string::npos) << text;
   }
   pair.nearest.status.code = PairStatus::STALE_TRANSFORM;
   const std::vector<Marker> markers = draw(pair);
   EXPECT_EQ(find(markers, "a/b/line", 1)->points.size(), 10U);
-  EXPECT_EQ(find(markers, "a/b/line", 1)->color, greyColor());
-  EXPECT_NE(nicheLabel(pair, nicheStyle()).text.text.find(", stale"), std::string::npos);
+  const std_msgs::ColorRGBA& grey = find(markers, "a/b/line", 1)->color;
+  EXPECT_TRUE(grey.r == grey.g && grey.g == grey.b);
+  EXPECT_NE(nicheLabel(pair, nicheStyle()).text.find(", stale"), std::string::npos);
 }
 
 TEST(NicheMarkers, DrawCirclesOfTheExtentAroundSegmentsAndPatchesAlone) {

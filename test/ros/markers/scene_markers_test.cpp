@@ -3,12 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <memory>
 #include <set>
 
 #include "ros/box_scene.h"
-#include "ros/markers/marker_layout.h"
 #include "ros/markers/marker_parts.h"
 #include "ros/markers/marker_selection.h"
 #include "ros/markers/scene_markers.h"
@@ -64,18 +62,13 @@ class Picture {
     return drawing_.draw(scene_, style, pairs_, messages, contacts, header_, kLifetime);
   }
   MarkerArray clear() { return drawing_.draw(scene_, style, pairs_, {}, {}, header_, kLifetime); }
-  // One cycle of the node with nobody but the markers. @return the pairs whose niches were asked for
-  std::vector<std::string> runCycle(double seconds) {
-    std::vector<std::string> asked;
-    drawing_.demand().begin(seconds);
-    for (std::size_t k = 0; k < pairs_.size(); ++k) {
-      const bool wanted = drawing_.demand().wantsNiches(pairs_[k]->heading.pair);
-      tracked_[k]->demand.niches = pairs_[k]->heading.with_niches = wanted;
-      tracked_[k]->solution.solve_seconds = solve_seconds;
-      if (wanted) asked.push_back(pairs_[k]->heading.pair);
+  // @return the pairs whose niches the next picture needs
+  std::set<std::string> wanted() const {
+    std::set<std::string> pairs;
+    for (const auto& pair : pairs_) {
+      if (drawing_.draws(pair->heading.pair)) pairs.insert(pair->heading.pair);
     }
-    drawing_.demand().take(pairs_);
-    return asked;
+    return pairs;
   }
   void moveNearest(std::size_t pair, double distance) {
     PairSolution& solution = tracked_[pair]->solution;
@@ -83,6 +76,7 @@ class Picture {
     solution.distance = distance;
     solution.point_b_in_a = solution.point_a_in_a + distance * away;
   }
+  void dropNiches(std::size_t pair) { tracked_[pair]->solution.niches.clear(); }
   void makeStale(std::size_t pair) { pairs_[pair]->status.code = PairStatus::STALE_TRANSFORM; }
   void makeLink(std::size_t body) { scene_.bodies.edit(body).is_robot_link = true; }
   void makeCloud(std::size_t body) { scene_.bodies.edit(body).cloud = std::make_shared<const CloudState>(); }
@@ -103,11 +97,9 @@ class Picture {
   void warn(std::size_t pair, bool raised) { pairs_[pair]->heading.warning = raised; }
   void wait(double seconds) { header_.stamp += ros::Duration(seconds); }
   SceneMarkers& drawing() { return drawing_; }
-  std::vector<LocatedBody> bodies() const { return locateBodies(scene_, pairs_); }
 
   MarkerStyle style;
   std::vector<PairContactState> contacts;
-  double solve_seconds = 0.0;
 
  private:
   // Eight directions in the plane, then the same one floor higher.
@@ -158,166 +150,58 @@ std::vector<Marker> withKind(const MarkerArray& message, const std::string& kind
   return found;
 }
 
-// Cycles until each selected pair was asked; how often each was.
-std::map<std::string, int> askedIn(Picture& picture, int cycles, double seconds) {
-  std::map<std::string, int> asked;
-  for (int cycle = 0; cycle < cycles; ++cycle) {
-    for (const std::string& pair : picture.runCycle(seconds)) ++asked[pair];
-    picture.draw();
-  }
-  return asked;
-}
-
-TEST(SceneMarkers, AskForTheNichesOfTheNearestPairsAndDrawThemWhenTheyCome) {
+TEST(SceneMarkers, NeedTheNichesOfTheNearestPairsAndOfThoseInWarning) {
   Picture picture(12);
-  picture.style.pair_count = 5;
-  picture.runCycle(1.0);
-  EXPECT_EQ(withKind(picture.draw(), "/line").size(), 5U) << "the shortest distances need no niches";
-  EXPECT_EQ(askedIn(picture, 6, 1.0).size(), 5U);
+  picture.style.pair_count = 2;
+  EXPECT_TRUE(picture.wanted().empty()) << "nothing has been drawn";
   const MarkerArray message = picture.draw();
-  EXPECT_EQ(withKind(message, "middle/box_5/line").size(), 2U);
-  EXPECT_TRUE(withKind(message, "middle/box_6/line").empty());
-  EXPECT_NE(withKind(message, "legend").front().text.find("5 nearest of 12"), std::string::npos);
+  EXPECT_EQ(picture.wanted(), (std::set<std::string>{"middle/box_1", "middle/box_2"}));
+  EXPECT_EQ(withKind(message, "middle/box_2/line").size(), 2U);
+  EXPECT_TRUE(withKind(message, "middle/box_3/line").empty());
   picture.warn(11, true);
+  picture.moveNearest(2, 0.05);  // before the other two
   picture.draw();
-  EXPECT_EQ(askedIn(picture, 8, 1.0).size(), 6U) << "and of every pair in warning";
-  picture.warn(11, false);
-  picture.wait(0.9);
-  picture.draw();
-  EXPECT_EQ(askedIn(picture, 2, 1.0).size(), 6U) << "it may come back";
-  picture.wait(0.2);
-  picture.draw();
-  EXPECT_EQ(askedIn(picture, 2, 1.0).size(), 5U);
+  EXPECT_EQ(picture.wanted(), (std::set<std::string>{"middle/box_3", "middle/box_1", "middle/box_12"}));
   picture.drawing().forget();
-  EXPECT_TRUE(picture.runCycle(1.0).empty()) << "nobody looks";
+  EXPECT_TRUE(picture.wanted().empty()) << "nobody looks";
 }
 
-TEST(SceneMarkers, AskInTurnsForNoMoreThanTheirShareOfTheTime) {
-  Picture picture(12);
-  picture.style.pair_count = 5;
-  picture.solve_seconds = 0.008;
-  picture.runCycle(0.005);
-  picture.draw();
-  const std::map<std::string, int> asked = askedIn(picture, 400, 0.005);
-  EXPECT_EQ(asked.size(), 5U);
-  for (const auto& [pair, count] : asked) EXPECT_NEAR(count, 400 * 0.005 / 0.008 / 5, 1.0) << pair;
-  picture.solve_seconds = 0.0005;
-  askedIn(picture, 20, 0.005);
-  for (const auto& [pair, count] : askedIn(picture, 10, 0.005)) EXPECT_EQ(count, 10) << pair;
-  picture.solve_seconds = 10.0;  // a first solve
-  askedIn(picture, 1, 0.005);
-  picture.solve_seconds = 0.0;
-  EXPECT_TRUE(askedIn(picture, 198, 0.005).empty());
-  EXPECT_FALSE(askedIn(picture, 6, 0.005).empty()) << "the debt has an end";
-}
-
-TEST(SceneMarkers, DrawTheNearestPointsOfThePresentCycleBetweenTwoQuestions) {
-  Picture picture(3);
-  picture.runCycle(1.0);
-  picture.draw();
-  askedIn(picture, 4, 1.0);
-  picture.runCycle(0.0);  // nothing is asked
-  picture.moveNearest(0, 0.07);
+TEST(SceneMarkers, DrawTheShortestDistanceOfAPairWhoseNichesAreNotKnown) {
+  Picture picture(1);
+  picture.dropNiches(0);
   const std::vector<Marker> lines = withKind(picture.draw(), "middle/box_1/line");
-  ASSERT_EQ(lines.size(), 2U) << "the other niche is that of the last question";
-  const geometry_msgs::Point& to = lines[0].points[1];
-  EXPECT_NEAR(std::hypot(to.x - lines[0].points[0].x, to.y - lines[0].points[0].y), 0.07, 1e-12);
+  ASSERT_EQ(lines.size(), 1U);
+  EXPECT_EQ(lines[0].id, 0);
+  EXPECT_NEAR(lines[0].points[1].x - lines[0].points[0].x, 0.1, 1e-12);
 }
 
-// The text without the empty rows above and below it.
-std::string wordsOf(const Marker& text) {
-  const std::size_t first = text.text.find_first_not_of('\n');
-  return text.text.substr(first, text.text.find_last_not_of('\n') + 1 - first);
-}
-Eigen::Vector3d placeOf(const Marker& marker) {
-  return {marker.pose.position.x, marker.pose.position.y, marker.pose.position.z};
-}
-
-TEST(SceneMarkers, EveryDrawnPairIsNamedAboveTheSceneInARowThatHidesNoOther) {
+TEST(SceneMarkers, NameEveryDrawnPairAtItsLineAndDrawTheNearestThick) {
   Picture picture(12);
   picture.style.pair_count = 0;
   const MarkerArray message = picture.draw();
   const std::vector<Marker> texts = withKind(message, "/text");
   ASSERT_EQ(texts.size(), 12U);
-  EXPECT_EQ(wordsOf(texts[0]), "1   middle - box_1: 100 mm");
-  EXPECT_EQ(wordsOf(texts[1]), "2   middle - box_2: 150 mm");
-  double top = 0.0;
-  for (const LocatedBody& body : picture.bodies()) top = std::max(top, body.box.max().z());
-  std::set<std::size_t> rows;
+  EXPECT_EQ(texts[0].text, "middle - box_1: 100 mm");
+  EXPECT_EQ(texts[1].text, "middle - box_2: 150 mm");
   for (const Marker& text : texts) {
-    EXPECT_EQ(text.pose, texts[0].pose);
-    EXPECT_EQ(std::count(text.text.begin(), text.text.end(), '\n'), 12 - 1 + 5) << "and the legend's rows";
-    rows.insert(text.text.find_first_not_of('\n'));
-    EXPECT_GT(placeOf(text).z() - 0.5 * 17.0 * (text.scale.z + 0.01), top);
+    const Marker line = withKind(message, text.ns.substr(0, text.ns.rfind('/')) + "/line").front();
+    EXPECT_NEAR(text.pose.position.x, 0.5 * (line.points[0].x + line.points[1].x), 1e-12);
+    EXPECT_NEAR(text.pose.position.y, 0.5 * (line.points[0].y + line.points[1].y), 1e-12);
+    EXPECT_NEAR(text.pose.position.z, line.points[0].z, 2.0 * text.scale.z);
+    const double first = withKind(message, "middle/box_1/line").front().scale.x;
+    EXPECT_EQ(line.scale.x < 0.6 * first, text.ns != "middle/box_1/text");
   }
-  EXPECT_EQ(rows.size(), texts.size());
-}
-
-TEST(SceneMarkers, NumbersLieInNoBodyAndCamerasAllAroundSeeCloseOnesApart) {
-  Picture picture(16);
-  picture.style.pair_count = 0;
-  const MarkerArray message = picture.draw();
-  const std::vector<Marker> numbers = withKind(message, "/number");
-  ASSERT_EQ(numbers.size(), 16U);
-  for (const Marker& number : numbers) {
-    EXPECT_EQ(number.text, number.ns.substr(11, number.ns.find("/number") - 11))
-        << "of the pair middle/box_k";
-    for (const LocatedBody& body : picture.bodies()) {
-      EXPECT_GT(std::sqrt(body.box.squaredExteriorDistance(placeOf(number))), 0.3 * number.scale.z);
-    }
-    for (const Marker& other : numbers) {
-      if (other.ns == number.ns) continue;
-      for (const double pitch : {0.0, 0.3, 0.59}) {
-        for (double yaw = 0.0; yaw < 2.0 * M_PI; yaw += 0.1) {
-          const Eigen::Vector3d right(-std::sin(yaw), std::cos(yaw), 0.0);
-          const Eigen::Vector3d up(-std::sin(pitch) * std::cos(yaw), -std::sin(pitch) * std::sin(yaw),
-                                   std::cos(pitch));
-          const Eigen::Vector3d between = placeOf(number) - placeOf(other);
-          const double height = number.scale.z;
-          if (between.head<2>().norm() > 4.0 * height) continue;
-          EXPECT_GT(std::max(std::abs(between.dot(right)), std::abs(between.dot(up))), height);
-        }
-      }
-    }
-  }
-}
-
-TEST(SceneMarkers, ANumberStaysWithItsPairAndAFreeOneIsTaken) {
-  Picture picture(4);
-  picture.style.pair_count = 2;
-  picture.draw();
-  picture.moveNearest(2, 0.05);  // before the other two
-  const MarkerArray message = picture.draw();
-  const std::vector<Marker> texts = withKind(message, "/text");
-  ASSERT_EQ(texts.size(), 2U);
-  EXPECT_EQ(wordsOf(texts[0]), "1   middle - box_1: 100 mm");
-  EXPECT_EQ(wordsOf(texts[1]), "2   middle - box_3: 50.0 mm");
-  picture.style.pair_count = 1;
-  const MarkerArray single = picture.draw();
-  EXPECT_EQ(wordsOf(withKind(single, "/text").front()), "middle - box_3: 50.0 mm");
-  EXPECT_TRUE(withKind(single, "/number").empty()) << "one needs no number";
 }
 
 TEST(SceneMarkers, APairWhoseTransformsBecomeStaleStaysAsItWas) {
   Picture picture(2);
-  picture.runCycle(1.0);
   picture.draw();
-  askedIn(picture, 4, 1.0);
   picture.makeStale(0);
-  const MarkerArray message = picture.draw();
-  EXPECT_EQ(withKind(message, "box_1/line").front().points.size(), 10U) << "dashed";
-  EXPECT_EQ(wordsOf(withKind(message, "box_1/text").front()), "1   middle - box_1: 100 mm, stale");
-  EXPECT_NE(withKind(message, "legend").front().text.find("dashed"), std::string::npos);
-}
-
-TEST(SceneMarkers, NumbersStayWhereTheyAreWhileNothingMoves) {
-  Picture picture(5);
-  const std::vector<Marker> before = withKind(picture.draw(), "/number");
-  for (int k = 0; k < 5; ++k) {
-    picture.wait(0.7);
-    const std::vector<Marker> after = withKind(picture.draw(), "/number");
-    ASSERT_EQ(after.size(), before.size());
-    for (std::size_t n = 0; n < after.size(); ++n) EXPECT_EQ(after[n].pose, before[n].pose);
+  for (int k = 0; k < 2; ++k) {
+    const MarkerArray message = picture.draw();
+    EXPECT_EQ(withKind(message, "box_1/line").front().points.size(), 10U) << "dashed";
+    EXPECT_EQ(withKind(message, "box_1/line").size(), 2U) << "with its other niche";
+    EXPECT_EQ(withKind(message, "box_1/text").front().text, "middle - box_1: 100 mm, stale");
   }
 }
 
@@ -352,7 +236,7 @@ PairContactState manyContacts(std::size_t count) {
   return state;
 }
 
-TEST(SceneMarkers, ListTheDeepestContactsAsManyAsNichesAndAtMostFiftyRows) {
+TEST(SceneMarkers, LabelTheDeepestContactsAsManyAsNiches) {
   Picture picture(2);
   picture.style.niche_count = 12;
   picture.contacts = {manyContacts(40)};
@@ -361,25 +245,10 @@ TEST(SceneMarkers, ListTheDeepestContactsAsManyAsNichesAndAtMostFiftyRows) {
   ASSERT_EQ(labels.size(), 12U);
   for (const Marker& label : labels) EXPECT_GT(label.id, 40 - 12);
   EXPECT_EQ(withKind(message, "/contact_depth").size(), 40U);
-  EXPECT_EQ(withKind(message, "box_2/text").size(), 1U) << "a pair without contacts keeps its row";
-  EXPECT_EQ(wordsOf(withKind(message, "more").front()), "and 28 more");
+  EXPECT_EQ(withKind(message, "box_2/text").size(), 1U) << "a pair without contacts keeps its label";
+  EXPECT_TRUE(withKind(message, "box_1/text").empty());
   picture.style.niche_count = 0;
-  picture.contacts = {manyContacts(1000)};
-  EXPECT_EQ(withKind(picture.draw(), "/contact_text").size(), 50U);
-}
-
-TEST(SceneMarkers, CountThePairsInWarningThatTheListHasNoRoomFor) {
-  Picture picture(12);
-  for (std::size_t pair = 0; pair < 12; ++pair) picture.warn(pair, true);
-  MarkerArray message = picture.draw();
-  EXPECT_EQ(withKind(message, "/line").size(), 12U);
-  EXPECT_EQ(withKind(message, "/number").size(), 8U);
-  EXPECT_EQ(withKind(message, "/text").size(), 8U);
-  EXPECT_EQ(wordsOf(withKind(message, "more").front()), "and 4 more");
-  picture.style.pair_count = 11;
-  message = picture.draw();
-  EXPECT_EQ(withKind(message, "/text").size(), 11U) << "as many as are asked for";
-  EXPECT_EQ(wordsOf(withKind(message, "more").front()), "and 1 more");
+  EXPECT_EQ(withKind(picture.draw(), "/contact_text").size(), 40U);
 }
 
 TEST(SceneMarkers, TintTheBodiesOfAPairInWarningAndNoOther) {
@@ -436,33 +305,6 @@ TEST(SceneMarkers, TintTheLinkAndNotTheCloud) {
   const std::vector<Marker> tints = withKind(picture.draw(), "warning");
   ASSERT_EQ(tints.size(), 1U);
   EXPECT_EQ(tints[0].header.frame_id, "middle");
-}
-
-TEST(SceneMarkers, HaveOneLegendThatCanBeSwitchedOff) {
-  Picture picture(3);
-  const std::vector<Marker> legend = withKind(picture.draw(), "legend");
-  ASSERT_GE(legend.size(), 3U);
-  std::set<int> ids;
-  for (const Marker& marker : legend) ids.insert(marker.id);
-  EXPECT_EQ(ids.size(), legend.size());
-  picture.style.legend = false;
-  const MarkerArray without = picture.draw();
-  EXPECT_TRUE(withKind(without, "legend").empty());
-  EXPECT_EQ(withKind(without, "legend", Marker::DELETE).size(), legend.size());
-}
-
-// rviz puts a centimetre between the rows of one text.
-TEST(SceneMarkers, RowsOfTheLegendOfASmallSceneStandByThemselves) {
-  Picture picture(3, 0.02);
-  const std::vector<Marker> legend = withKind(picture.draw(), "legend");
-  ASSERT_GE(legend.size(), 3U);
-  double above = legend.front().pose.position.z;
-  for (const Marker& marker : legend) {
-    EXPECT_EQ(marker.text.find('\n'), std::string::npos);
-    const double lower = above - marker.pose.position.z;
-    EXPECT_TRUE(lower == 0.0 || lower > 1.2 * marker.scale.z) << "rows " << lower << " apart";
-    above = marker.pose.position.z;
-  }
 }
 
 TEST(SceneMarkers, AreAllDeletedWhenNothingIsToBeDrawn) {

@@ -166,7 +166,7 @@ TEST_F(TopicsTest, MarkersAskForNichesOfNoPairButThoseTheyDraw) {
   ASSERT_TRUE(markers.waitFor(draws("box_ball/line")));
   EXPECT_TRUE(distances.waitFor([&](const Distances& message) {
     return with_niches(message) == std::set<std::string>{"box_ball"};
-  })) << "the other one is let go after a second";
+  })) << "the other one is let go";
 }
 
 TEST_F(TopicsTest, DistancesCarryEveryPairAtTheTimeOfItsTransforms) {
