@@ -4,7 +4,6 @@ set(CONCAVE_DISTANCE_ROS_PACKAGES
   diagnostic_updater
   dynamic_reconfigure
   geometry_msgs
-  interactive_markers
   message_generation
   nodelet
   pluginlib

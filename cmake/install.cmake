@@ -52,9 +52,10 @@ if(CONCAVE_DISTANCE_WITH_ROS)
   install(DIRECTORY launch DESTINATION ${CONCAVE_DISTANCE_SHARE_DESTINATION} COMPONENT node)
   catkin_install_python(PROGRAMS scripts/follow_rows.py scripts/move_crowd.py scripts/pick_parts.py scripts/plot_distances.py scripts/show_distances.py
     scripts/simulate_camera.py scripts/view_robot.py src/ros/bridges/cob_bridge.py src/ros/bridges/moveit_bridge.py
+    src/ros/demo/joint_player.py src/ros/demo/marker_mover.py src/ros/demo/pose_player.py src/ros/demo/robot_mover.py
     DESTINATION ${CONCAVE_DISTANCE_BIN_DESTINATION})
   install(FILES scripts/row_program.py DESTINATION ${CONCAVE_DISTANCE_BIN_DESTINATION} COMPONENT node)
-  # Modules of the bridges, which look for them beside themselves; in no component, as the programs.
+  # Modules of the bridges and the demos, which look for them beside themselves; in no component, as the programs.
   install(FILES
     src/ros/bridges/bridge_problems.py
     src/ros/bridges/cob_messages.py
@@ -70,5 +71,6 @@ if(CONCAVE_DISTANCE_WITH_ROS)
     src/ros/bridges/registered_obstacles.py
     src/ros/bridges/rigid_transforms.py
     src/ros/bridges/scene_operations.py
+    src/ros/demo/demo_motion.py
     DESTINATION ${CONCAVE_DISTANCE_BIN_DESTINATION})
 endif()

@@ -5,7 +5,7 @@ if(CONCAVE_DISTANCE_WITH_ROS AND PROJECT_BINARY_DIR STREQUAL "${PROJECT_SOURCE_D
   file(REMOVE_RECURSE ${rosrun_links})
   file(MAKE_DIRECTORY ${rosrun_links})
   foreach(program IN ITEMS clearance_query distance_bag distance_query evaluate mesh_tool simulate thesis_tool
-      distance_node simulation_node joint_player marker_mover pose_player robot_mover velocity_guard)
+      distance_node simulation_node velocity_guard)
     file(CREATE_LINK ../build/devel/lib/concave_distance/${program} ${rosrun_links}/${program} SYMBOLIC RESULT ignored)
   endforeach()
 endif()

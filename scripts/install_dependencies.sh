@@ -16,7 +16,7 @@ set -euo pipefail
     libconsole-bridge-dev libpugixml-dev libtinyxml2-dev libxxhash-dev zlib1g-dev
     catkin python3-dynamic-reconfigure ros-message-generation ros-message-runtime
     libdiagnostic-updater-dev libdynamic-reconfigure-config-init-mutex-dev libgeometry-msgs-dev
-    libinteractive-markers-dev libnodelet-dev libnodeletlib-dev libros-rosgraph-msgs-dev librosbag-storage-dev libroscpp-dev libroslib-dev libsensor-msgs-dev libshape-msgs-dev libstd-msgs-dev
+    libnodelet-dev libnodeletlib-dev libros-rosgraph-msgs-dev librosbag-storage-dev libroscpp-dev libroslib-dev libsensor-msgs-dev libshape-msgs-dev libstd-msgs-dev
     liboctomap-dev libstd-srvs-dev libtf2-dev libtf2-eigen-dev libtf2-ros-dev libtopic-tools-dev libtrajectory-msgs-dev libvisualization-msgs-dev pluginlib-dev
     ros-geometry-msgs ros-sensor-msgs ros-shape-msgs ros-std-msgs ros-std-srvs ros-trajectory-msgs ros-visualization-msgs
   )
@@ -31,7 +31,7 @@ set -euo pipefail
     git locales  # the record of results; a locale with decimal commas
     python3-yaml  # experiments of the evaluation, view_robot.py
     python3-rosmaster python3-rospy python3-tf2-msgs python3-rosgraph-msgs python3-dynamic-reconfigure  # scripts/faults.sh
-    python3-sensor-msgs  # pick_parts.py
+    python3-interactive-markers python3-sensor-msgs  # marker_mover.py, pick_parts.py
     python3-matplotlib  # examples/plot_niches.py, plot_distances.py
     python3-rosbag python3-numpy  # write_robot_bag.py
     python3-diagnostic-msgs python3-geometry-msgs python3-shape-msgs python3-std-msgs python3-tf2-ros  # the bridges
@@ -39,8 +39,9 @@ set -euo pipefail
   debian_demo=(
     python3-roslaunch python3-rospy python3-rosservice python3-rostopic rosbash rviz ros-robot-state-publisher
     python3-rospkg python3-tf2-ros python3-yaml  # scripts/view_robot.py
-    python3-sensor-msgs python3-tf2-msgs  # pick_parts.py, move_crowd.py, simulate_camera.py
-    python3-cvxopt python3-numpy python3-rosgraph-msgs  # follow_rows.py, simulate_camera.py
+    python3-sensor-msgs python3-tf2-msgs  # joint_player.py, pick_parts.py, move_crowd.py, simulate_camera.py
+    python3-interactive-markers  # marker_mover.py
+    python3-cvxopt python3-numpy python3-rosgraph-msgs  # follow_rows.py, simulate_camera.py, demo_motion.py
     python3-matplotlib  # distance_bag --plot
     python3-geometry-msgs python3-shape-msgs python3-std-msgs python3-std-srvs python3-trajectory-msgs python3-visualization-msgs python3-diagnostic-msgs  # what ours are made of
   )
@@ -56,18 +57,18 @@ set -euo pipefail
     libassimp-dev libeigen3-dev libtbb-dev liburdfdom-dev libyaml-cpp-dev
     libconsole-bridge-dev libpugixml-dev libtinyxml2-dev libxxhash-dev zlib1g-dev
     ros-noetic-catkin ros-noetic-diagnostic-updater ros-noetic-dynamic-reconfigure ros-noetic-geometry-msgs
-    ros-noetic-interactive-markers ros-noetic-message-generation ros-noetic-nodelet ros-noetic-pluginlib
+    ros-noetic-message-generation ros-noetic-nodelet ros-noetic-pluginlib
     ros-noetic-rosbag-storage ros-noetic-roscpp ros-noetic-rosgraph-msgs ros-noetic-roslib ros-noetic-sensor-msgs ros-noetic-shape-msgs ros-noetic-std-msgs ros-noetic-std-srvs ros-noetic-tf2
     ros-noetic-octomap ros-noetic-tf2-eigen ros-noetic-tf2-ros ros-noetic-topic-tools ros-noetic-trajectory-msgs ros-noetic-visualization-msgs
   )
   noetic_build=("${noetic_node[@]}" libcgal-dev libalglib-dev libfcl-dev python3-dev python3-numpy)
   noetic_test=(
     git locales python3-yaml libgtest-dev libfcl-dev libboost-dev libbenchmark-dev ros-noetic-rostest ros-noetic-rosmaster ros-noetic-rospy ros-noetic-tf2-msgs
-    ros-noetic-diagnostic-msgs ros-noetic-rosbag ros-noetic-tf2-ros python3-matplotlib
+    ros-noetic-diagnostic-msgs ros-noetic-interactive-markers ros-noetic-rosbag ros-noetic-tf2-ros python3-matplotlib
   )
   noetic_demo=(
     ros-noetic-roslaunch ros-noetic-rospy ros-noetic-rosservice ros-noetic-rostopic ros-noetic-rosbash ros-noetic-rviz
-    ros-noetic-robot-state-publisher ros-noetic-tf2-msgs
+    ros-noetic-robot-state-publisher ros-noetic-interactive-markers ros-noetic-tf2-msgs
     python3-rospkg python3-yaml  # scripts/view_robot.py
     python3-cvxopt python3-numpy  # follow_rows.py
     python3-matplotlib  # distance_bag --plot

@@ -138,7 +138,7 @@ void addRobot(const RobotSpec& spec, const RobotDescription& robot, const Descri
                             "' floats, so robot_state_publisher leaves out " + "the transform from '" +
                             bodyName(spec, joint.parent) + "' to '" + bodyName(spec, joint.child) +
                             "': what is below it has no distance until " +
-                            "something publishes that (robot_mover publishes the joint's origin)");
+                            "something publishes that (robot_mover.py publishes the joint's origin)");
     }
   }
   for (const LinkPair& pair : adjacentLinks(robot)) {

@@ -52,7 +52,7 @@ std::string includedFolder(const std::string& included) {
 bool belongsToRos(const std::string& included) {
   static const std::regex ros_header(
       R"(^(ros|tf|tf2[a-z_]*|[a-z_]+_msgs|[a-z_]+_srvs|std_srvs|urdf|pluginlib|nodelet|dynamic_reconfigure|)"
-      R"(diagnostic_updater|interactive_markers|resource_retriever|message_filters|rosbag|concave_distance)/)");
+      R"(diagnostic_updater|resource_retriever|message_filters|rosbag|concave_distance)/)");
   const bool generated = std::filesystem::path(included).parent_path() == kPackage;
   return generated || (std::regex_search(included, ros_header) && includedFolder(included).empty());
 }
@@ -131,8 +131,7 @@ const std::vector<std::string>& foldersFromTheGround() {
                                                    "ros/clouds",
                                                    "ros/node",
                                                    "ros/bags",
-                                                   "ros/guard",
-                                                   "ros/demo"};
+                                                   "ros/guard"};
   return folders;
 }
 

@@ -7,10 +7,10 @@
 #include <iterator>
 #include <map>
 
+#include "benchmark/support/joint_path.h"
+#include "benchmark/support/swaying_joints.h"
 #include "concave_distance/base/error.h"
 #include "concave_distance/loading/load_scene.h"
-#include "ros/demo/joint_path.h"
-#include "ros/demo/swaying_joints.h"
 
 namespace concave_distance::benchmark {
 namespace {
@@ -33,7 +33,7 @@ MovingScene demoScene(const std::string& name) {
   const std::string urdf = textOf(folder + "/urdf/wam.urdf");
   SceneLoadOptions options = loadOptions();
   options.descriptions["robot_description"] = urdf;
-  const demo::NamedJointPath path = demo::readJointPath(folder + "/config/wam_path.csv");
+  const NamedJointPath path = readJointPath(folder + "/config/wam_path.csv");
   return {name, loadSceneFile(folder + "/config/" + name + ".yaml", options), [path](double time) {
             const Eigen::VectorXd at = path.path.at(time);
             Positions positions;
@@ -58,9 +58,9 @@ MovingScene ownRobot(const std::string& files) {
     options.descriptions["robot_description_semantic"] = textOf(files.substr(comma + 1));
   }
   return {std::filesystem::path(path).stem().string(), loadRobotScene(urdf, path, options),
-          [joints = demo::swayingJoints(*model)](double time) {
+          [joints = swayingJoints(*model)](double time) {
             Positions positions;
-            for (const demo::SwayingJoint& joint : joints) positions[joint.name] = joint.at(time);
+            for (const SwayingJoint& joint : joints) positions[joint.name] = joint.at(time);
             return positions;
           }};
 }

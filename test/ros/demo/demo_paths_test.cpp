@@ -3,14 +3,18 @@
 #include <cmath>
 #include <string>
 
+#include "benchmark/support/joint_path.h"
 #include "concave_distance/base/error.h"
 #include "loading/query_poses.h"
-#include "ros/demo/joint_path.h"
 #include "simulation/pose_path.h"
 #include "support/temporary_folder.h"
 
 namespace concave_distance::demo::demo_paths_test {
 namespace {
+
+using benchmark::JointPath;
+using benchmark::NamedJointPath;
+using benchmark::readJointPath;
 
 class FileTest : public ::testing::Test {
  protected:
@@ -73,15 +77,6 @@ TEST(PosePath, IsStraightAndTurnsSteadilyBetweenPoses) {
   EXPECT_NEAR(Eigen::AngleAxisd(quarter.linear()).angle(), 0.25, 1e-14);
   EXPECT_TRUE(path.poseAt(0.0).isApprox(first));
   EXPECT_TRUE(path.poseAt(9.0).isApprox(second));
-}
-
-TEST(PingPong, GoesThereAndBackWithARestAtEitherEnd) {
-  EXPECT_EQ(pingPong(0.0, 20.0, 1.0), 0.0);
-  EXPECT_EQ(pingPong(7.0, 20.0, 1.0), 7.0);
-  EXPECT_EQ(pingPong(20.5, 20.0, 1.0), 20.0);
-  EXPECT_EQ(pingPong(22.0, 20.0, 1.0), 19.0);
-  EXPECT_EQ(pingPong(41.5, 20.0, 1.0), 0.0);
-  EXPECT_EQ(pingPong(42.0 + 7.0, 20.0, 1.0), 7.0);
 }
 
 TEST_F(FileTest, PoseFilesAreRefusedWithFileAndReason) {

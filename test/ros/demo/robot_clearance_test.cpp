@@ -11,17 +11,19 @@
 #include <vector>
 
 #include "benchmark/support/fcl_distance.h"
+#include "benchmark/support/joint_path.h"
 #include "concave_distance/loading/load_scene.h"
 #include "concave_distance/mesh/import/import_mesh.h"
 #include "concave_distance/mesh/repair/repair_mesh.h"
 #include "loading/query_poses.h"
-#include "ros/demo/joint_path.h"
 #include "simulation/pose_path.h"
 
 namespace concave_distance::demo::robot_clearance_test {
 namespace {
 
 using benchmark::FclModel;
+using benchmark::NamedJointPath;
+using benchmark::readJointPath;
 
 const std::string kPackage = CONCAVE_DISTANCE_SOURCE_DIR;
 

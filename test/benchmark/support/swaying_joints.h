@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace concave_distance::demo {
+namespace concave_distance::benchmark {
 
 /// A joint that moves to and fro around a position in its range.
 struct SwayingJoint {
@@ -21,4 +21,4 @@ struct SwayingJoint {
 /// where zero is outside.
 std::vector<SwayingJoint> swayingJoints(const urdf::ModelInterface& model);
 
-}  // namespace concave_distance::demo
+}  // namespace concave_distance::benchmark

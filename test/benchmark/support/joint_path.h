@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace concave_distance::demo {
+namespace concave_distance::benchmark {
 
 /// A closed path of joint positions: the periodic cubic spline through waypoints, with continuous velocity
 /// and acceleration everywhere.
@@ -35,8 +35,4 @@ struct NamedJointPath {
 /// @throws Error when it does not, for fewer than four rows, or times that do not rise from 0
 NamedJointPath readJointPath(const std::string& path);
 
-/// Forwards through [0, duration] and backwards again, without end: the time on the path after `elapsed`
-/// seconds, with a rest of `pause` seconds at either end.
-double pingPong(double elapsed, double duration, double pause);
-
-}  // namespace concave_distance::demo
+}  // namespace concave_distance::benchmark

@@ -1,9 +1,9 @@
-#include "swaying_joints.h"
+#include "benchmark/support/swaying_joints.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace concave_distance::demo {
+namespace concave_distance::benchmark {
 namespace {
 
 constexpr double kTurn = 0.5;          // rad, largest amplitude of a turning joint
@@ -50,4 +50,4 @@ std::vector<SwayingJoint> swayingJoints(const urdf::ModelInterface& model) {
   return joints;
 }
 
-}  // namespace concave_distance::demo
+}  // namespace concave_distance::benchmark

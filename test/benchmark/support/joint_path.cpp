@@ -1,4 +1,4 @@
-#include "joint_path.h"
+#include "benchmark/support/joint_path.h"
 
 #include <Eigen/LU>
 #include <algorithm>
@@ -8,7 +8,7 @@
 #include "base/number_text.h"
 #include "concave_distance/base/error.h"
 
-namespace concave_distance::demo {
+namespace concave_distance::benchmark {
 namespace {
 
 // The last row may be this far from the first one: both are written with 9 digits or more.
@@ -106,10 +106,4 @@ NamedJointPath readJointPath(const std::string& path) {
   return {{table.columns.begin() + 1, table.columns.end()}, JointPath(std::move(times), open, period)};
 }
 
-double pingPong(double elapsed, double duration, double pause) {
-  const double leg = duration + pause;
-  const double phase = std::fmod(std::max(elapsed, 0.0), 2.0 * leg);
-  return phase < leg ? std::min(phase, duration) : std::max(duration - (phase - leg), 0.0);
-}
-
-}  // namespace concave_distance::demo
+}  // namespace concave_distance::benchmark
