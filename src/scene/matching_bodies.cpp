@@ -1,6 +1,7 @@
 #include "matching_bodies.h"
 
 #include <algorithm>
+#include <set>
 
 #include "concave_distance/base/error.h"
 #include "name_pattern.h"
@@ -33,6 +34,32 @@ MatchingBodies matchingBodies(const Scene& scene, const std::string& text, const
   for (const auto& group : scene.groups) groups += (groups.empty() ? "" : ", ") + group.first;
   throw Error(where, isPattern(text) ? "'" + text + "' matches no body" : "there is no body '" + text + "'",
               "list_bodies has their names; groups: " + (groups.empty() ? "none" : groups));
+}
+
+std::vector<bool> standingFor(const Scene& scene, const std::string& group) {
+  std::vector<bool> listed(scene.bodies.size(), false);
+  std::set<std::string> frames;  // of its links, by RigidFrames::rootOf()
+  for (const std::size_t body : findMatchingBodies(scene, group).bodies) {
+    listed[body] = true;
+    if (scene.bodies[body].is_robot_link) frames.insert(scene.rigid.rootOf(scene.bodies[body].frame));
+  }
+  std::vector<bool> stands = listed;
+  for (std::size_t i = 0; i < stands.size(); ++i) {
+    // Along the chain of attachments to its end.
+    for (const Attachment* next = scene.bodies[i].attachment.get(); next != nullptr && !stands[i];) {
+      const auto parent = next->parent_serial == 0 ? std::nullopt : scene.findBody(next->parent);
+      stands[i] = parent ? listed[*parent] : frames.count(scene.rigid.rootOf(next->parent)) != 0;
+      next = parent ? scene.bodies[*parent].attachment.get() : nullptr;
+    }
+  }
+  return stands;
+}
+
+// All pairs less those of two bodies that stand for the group and those of two that do not.
+std::size_t countFacing(const Scene& scene, const std::vector<bool>& stands) {
+  std::vector<bool> others = stands;
+  others.flip();
+  return countRuledPairs(scene) - countRuledPairs(scene, stands) - countRuledPairs(scene, others);
 }
 
 }  // namespace concave_distance::detail

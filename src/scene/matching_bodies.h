@@ -22,4 +22,11 @@ MatchingBodies findMatchingBodies(const Scene& scene, const std::string& text);
 /// @throws Error when there are none
 MatchingBodies matchingBodies(const Scene& scene, const std::string& text, const std::string& where);
 
+/// Returns which bodies of a scene stand for a group: its members, and what is attached to one of them or to
+/// a frame that moves with a robot's link among them.
+std::vector<bool> standingFor(const Scene& scene, const std::string& group);
+/// Counts the enabled pairs by rule of which one body stands for the group and the other does not.
+/// O(bodies x classes).
+std::size_t countFacing(const Scene& scene, const std::vector<bool>& stands);
+
 }  // namespace concave_distance::detail

@@ -1,152 +1,106 @@
 #include "group_topics.h"
 
-#include <concave_distance/Nearest.h>
-#include <ros/console.h>
-
 #include <algorithm>
 #include <boost/make_shared.hpp>
 #include <cmath>
-#include <utility>
 
 #include "alerts.h"
 #include "base/constants.h"
 #include "nearest.h"
+#include "scene/matching_bodies.h"
 #include "topic_name.h"
 
 namespace concave_distance {
 namespace {
 
-using Mask = detail::GroupMembers::Mask;
-
-bool isOf(Mask mask, std::size_t group) {
-  return (mask >> group & 1U) != 0;
-}
-
-Mask facing(const ServedGroups& groups, const ScenePair& pair) {
-  return groups.members.facing(pair.body_a, pair.body_b);
-}
-
-std::shared_ptr<GroupTopics> advertise(const ros::NodeHandle& node, const std::string& group) {
-  const std::string name = "groups/" + topicName(group);
-  auto topics = std::make_shared<GroupTopics>();
-  topics->name = group;
-  topics->nearest = WatchedTopic::advertise<Nearest>(node, name + "/nearest", kQueueLength);
-  topics->alerts = WatchedTopic::advertise<Alert>(
-      node, name + "/alerts", kAlertQueueLength, [weak = std::weak_ptr<GroupTopics>(topics)] {
-        if (const std::shared_ptr<GroupTopics> known = weak.lock()) known->repeat = true;
-      });
-  return topics;
-}
-
-// How many pairs by rule lack a transform or are cut is known for the whole scene alone. They count for a
-// group as far as it has so many pairs without a tracker.
-OtherPairs othersOf(std::size_t count, const OtherPairs& all) {
-  OtherPairs others;
-  others.missing = std::min<std::uint64_t>(count, all.missing);
-  others.cut = std::min<std::uint64_t>(count - others.missing, all.cut);
-  others.beyond = count - others.missing - others.cut;
-  if (others.beyond + others.cut > 0) others.lower_bound = all.lower_bound;
-  return others;
-}
-
-// The more urgent, the less.
+// The more urgent, the less: pairs in warning, those without a distance, the others, each the nearest first.
 std::pair<int, double> urgencyOf(const TrackedPair& pair) {
   const WarningState state = pair.warning.state();
   const int order = state == WarningState::Warning ? 0 : state == WarningState::Unknown ? 1 : 2;
-  const bool has_distance = pair.solved() && !std::isnan(pair.solution.distance);
-  return {order, has_distance ? pair.solution.distance : pair.box_bound.value_or(kInfinity)};
+  return {order,
+          std::isnan(pair.solution.distance) ? pair.box_bound.value_or(kInfinity) : pair.solution.distance};
+}
+
+// The group is in warning while one of its pairs is; the alert has the nearest of these.
+// @param told the most urgent of its pairs; nullptr: that of the last alert is not tracked any more
+void publishAlert(const std::string& group, const PublishedPair* told, const OtherPairs& others,
+                  ros::Time now, GroupTopics& topics) {
+  const WarningState state = told == nullptr ? WarningState::Clear : told->tracked->warning.state();
+  const bool repeat = topics.alerts.takeNew() && state != WarningState::Clear;
+  if (std::exchange(topics.state, state) == state && !repeat) return;
+  if (told != nullptr) topics.last = told->heading;
+  if (told == nullptr) topics.last.stamp = now;
+  topics.last.warning = state == WarningState::Warning;
+  auto alert =
+      boost::make_shared<Alert>(told == nullptr ? clearedAlert(topics.last, others) : toAlert(*told));
+  alert->group = group;
+  topics.alerts.publish(alert);
 }
 
 }  // namespace
 
-ServedGroups GroupPublishers::serve(const Scene& scene, const ServedGroups* before) {
+ServedGroups serveGroups(const ros::NodeHandle& node, const Scene& scene, const ServedGroups& before) {
   ServedGroups groups;
-  groups.members = detail::GroupMembers(scene);
-  for (const std::string& name : groups.members.names()) {
-    std::shared_ptr<GroupTopics> topics;
-    for (std::size_t i = 0; before != nullptr && i < before->topics.size() && !topics; ++i) {
-      if (before->topics[i]->name == name) topics = before->topics[i];
-    }
-    groups.topics.push_back(topics ? std::move(topics) : advertise(node_, name));
-  }
-  if (scene.groups.size() > groups.topics.size() && !std::exchange(reported_, true)) {
-    ROS_WARN("The scene has %zu groups: the first %zu by name have topics, the others none.",
-             scene.groups.size(), groups.topics.size());
+  for (const auto& [name, members] : scene.groups) {
+    ServedGroup& group = groups[name];
+    group.stands = detail::standingFor(scene, name);
+    const auto known = before.find(name);
+    group.topics = known != before.end() ? known->second.topics : std::make_shared<GroupTopics>();
+    if (known != before.end()) continue;
+    const std::string topic = "groups/" + topicName(name);
+    group.topics->nearest = WatchedTopic::advertise<Nearest>(node, topic + "/nearest", kQueueLength);
+    group.topics->alerts = WatchedTopic::advertise<Alert>(node, topic + "/alerts", kAlertQueueLength);
   }
   return groups;
 }
 
-void GroupPublishers::readDemand(const ServedGroups& groups) {
-  nearest_wanted_ = alerts_wanted_ = 0;
-  for (std::size_t i = 0; i < groups.topics.size(); ++i) {
-    if (groups.topics[i]->nearest.isWatched()) nearest_wanted_ |= Mask{1} << i;
-    if (groups.topics[i]->alerts.isWatched()) {
-      alerts_wanted_ |= Mask{1} << i;
-    } else {
-      groups.topics[i]->state = WarningState::Clear;
+bool readGroupDemand(const ServedGroups& groups) {
+  bool is_any = false;
+  for (const auto& each : groups) {
+    GroupTopics& topics = *each.second.topics;
+    topics.nearest_wanted = topics.nearest.isWatched();
+    topics.alerts_wanted = topics.alerts.isWatched();
+    if (!topics.alerts_wanted) topics.state = WarningState::Clear;
+    is_any = is_any || topics.nearest_wanted || topics.alerts_wanted;
+  }
+  return is_any;
+}
+
+bool isWantedOfGroups(const ServedGroups& groups, const TrackedPair& pair) {
+  return std::any_of(groups.begin(), groups.end(), [&](const auto& each) {
+    const GroupTopics& topics = *each.second.topics;
+    const bool is_wanted = topics.nearest_wanted || (topics.alerts_wanted && pair.settings.warning_distance);
+    return is_wanted && each.second.faces(pair);
+  });
+}
+
+void publishGroups(const Scene& scene, const ServedGroups& groups, const PublishedPairs& pairs,
+                   const OtherPairs& others, const std::string& reference_frame, ros::Time now) {
+  for (const auto& [name, group] : groups) {
+    if (!group.topics->nearest_wanted && !group.topics->alerts_wanted) continue;
+    const auto faces = [&group = group](const PublishedPair& pair) { return group.faces(*pair.tracked); };
+    std::size_t tracked = 0;  // by rule
+    const PublishedPair* told = nullptr;
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+      if (!faces(*pairs[i])) continue;
+      tracked += i < scene.pairs.size() ? 0 : 1;
+      if (!pairs[i]->demand().due || !pairs[i]->tracked->settings.warning_distance) continue;
+      if (told == nullptr || urgencyOf(*pairs[i]->tracked) < urgencyOf(*told->tracked)) told = pairs[i].get();
     }
+    if (group.topics->alerts_wanted) publishAlert(name, told, others, now, *group.topics);
+    if (!group.topics->nearest_wanted) continue;
+    if (!group.ruled_pairs) group.ruled_pairs = detail::countFacing(scene, group.stands);
+    // How many pairs by rule lack a transform or are cut is known for the whole scene alone. They count for a
+    // group as far as it has so many pairs without a tracker.
+    const std::uint64_t count = *group.ruled_pairs - std::min(tracked, *group.ruled_pairs);
+    OtherPairs rest;
+    rest.missing = std::min(count, others.missing);
+    rest.cut = std::min(count - rest.missing, others.cut);
+    rest.beyond = count - rest.missing - rest.cut;
+    if (rest.beyond + rest.cut > 0) rest.lower_bound = others.lower_bound;
+    group.topics->nearest.publish(
+        boost::make_shared<Nearest>(nearestOf(pairs, rest, reference_frame, now, faces)));
   }
-}
-
-bool GroupPublishers::wants(const ServedGroups& groups, const TrackedPair& pair) const {
-  if (isIdle()) return false;
-  const Mask mask = facing(groups, *pair.origin);
-  return (mask & nearest_wanted_) != 0 || ((mask & alerts_wanted_) != 0 && pair.settings.warning_distance);
-}
-
-void GroupPublishers::publish(const Scene& scene, std::uint64_t revision, const ServedGroups& groups,
-                              const PublishedPairs& pairs, const OtherPairs& others, ros::Time now) {
-  if (isIdle()) return;
-  for (std::size_t i = 0; i < groups.topics.size(); ++i) {
-    if (isOf(nearest_wanted_, i)) {
-      GroupTopics& topics = *groups.topics[i];
-      if (std::exchange(topics.counted_revision, revision) != revision) {
-        topics.ruled_pairs = groups.members.countFacing(scene, i);
-      }
-      publishNearest(groups, i, scene.pairs.size(), pairs, others, now);
-    }
-    if (isOf(alerts_wanted_, i)) publishAlert(groups, i, pairs, others, now);
-  }
-}
-
-void GroupPublishers::publishNearest(const ServedGroups& groups, std::size_t group, std::size_t listed,
-                                     const PublishedPairs& pairs, const OtherPairs& others, ros::Time now) {
-  const GroupTopics& topics = *groups.topics[group];
-  const auto counts = [&](const PublishedPair& pair) {
-    return isOf(facing(groups, *pair.tracked->origin), group);
-  };
-  std::size_t tracked = 0;
-  for (std::size_t i = listed; i < pairs.size(); ++i) tracked += counts(*pairs[i]) ? 1 : 0;
-  const OtherPairs others_here = othersOf(topics.ruled_pairs - std::min(tracked, topics.ruled_pairs), others);
-  topics.nearest.publish(
-      boost::make_shared<Nearest>(nearestOf(pairs, others_here, reference_frame_, now, counts)));
-}
-
-// The group is in warning while one of its pairs is; the alert has the nearest of these.
-void GroupPublishers::publishAlert(const ServedGroups& groups, std::size_t group, const PublishedPairs& pairs,
-                                   const OtherPairs& others, ros::Time now) {
-  GroupTopics& topics = *groups.topics[group];
-  const PublishedPair* told = nullptr;
-  for (const auto& pair : pairs) {
-    if (!pair->demand().due || !pair->tracked->settings.warning_distance ||
-        !isOf(facing(groups, *pair->tracked->origin), group))
-      continue;
-    if (told == nullptr || urgencyOf(*pair->tracked) < urgencyOf(*told->tracked)) told = pair.get();
-  }
-  const WarningState state = told == nullptr ? WarningState::Clear : told->tracked->warning.state();
-  const bool repeat = topics.repeat.exchange(false) && state != WarningState::Clear;
-  if (std::exchange(topics.state, state) == state && !repeat) return;
-  Alert alert;
-  if (told != nullptr) {
-    alert = toAlert(*told);
-    topics.last = told->heading;
-  } else {  // the pair of the last alert is not tracked any more
-    topics.last.stamp = now;
-    topics.last.warning = false;
-    alert = clearedAlert(topics.last, others);
-  }
-  alert.group = topics.name;
-  topics.alerts.publish(boost::make_shared<Alert>(std::move(alert)));
 }
 
 }  // namespace concave_distance

@@ -86,15 +86,13 @@ TopicPublishers::TopicPublishers(const ros::NodeHandle& node, std::string refere
     : node_(node),
       reference_frame_(std::move(reference_frame)),
       pair_topics_(node_, std::move(pair_topics)),
-      groups_(node_, reference_frame_),
       nearest_(WatchedTopic::advertise<Nearest>(node_, "nearest", kQueueLength)),
       nearest_distance_(WatchedTopic::advertise<std_msgs::Float64>(node_, "nearest_distance", kQueueLength)),
       distances_(WatchedTopic::advertise<Distances>(node_, "distances", kQueueLength)),
       niches_(WatchedTopic::advertise<Niches>(node_, "niches", kQueueLength)),
       contacts_(WatchedTopic::advertise<Contacts>(node_, "contacts", kQueueLength)),
       markers_(WatchedTopic::advertise<visualization_msgs::MarkerArray>(node_, "markers", kQueueLength)),
-      alerts_(WatchedTopic::advertise<Alert>(node_, "alerts", kAlertQueueLength,
-                                             [this] { repeat_alerts_ = true; })),
+      alerts_(WatchedTopic::advertise<Alert>(node_, "alerts", kAlertQueueLength)),
       constraints_(node_, reference_frame_, constraints),
       drawing_(std::make_unique<SceneMarkers>()) {}
 
@@ -109,7 +107,8 @@ std::shared_ptr<const ServedScene> TopicPublishers::serve(Scene scene, const Ser
     served->revision = before->revision + 1;
   }
   served->scene = std::make_shared<const Scene>(std::move(scene));
-  served->groups = groups_.serve(*served->scene, before == nullptr ? nullptr : &before->groups);
+  static const ServedGroups no_groups;
+  served->groups = serveGroups(node_, *served->scene, before == nullptr ? no_groups : before->groups);
   served->marker_style = style;
   static const PairTopicList no_topics;
   served->topics = pair_topics_.topicsOf(*served->scene, before == nullptr ? nullptr : before->scene.get(),
@@ -134,7 +133,7 @@ void TopicPublishers::readDemand(const ServedScene& served, const MarkerOptions&
   niches_wanted_ = niches_.isWatched();
   contacts_wanted_ = contacts_.isWatched();
   alerts_wanted_ = alerts_.isWatched();
-  groups_.readDemand(served.groups);
+  groups_wanted_ = readGroupDemand(served.groups);
   own_wanted_ = std::any_of(served.topics.begin(), served.topics.end(), [](const auto& own) {
     return own && (own->distance.isWatched() || own->niches.isWatched() || own->contacts.isWatched());
   });
@@ -162,7 +161,7 @@ PairDemand TopicPublishers::demandOf(const ServedScene& served, std::size_t plac
   const bool contacts = (contacts_wanted_ || own.contacts.isWatched()) && settings.effects.any();
   PairDemand pair;
   pair.due = nearest_wanted_ || distances_wanted_ || niches_wanted_ || alert || own_niches || contacts ||
-             own.distance.isWatched() || groups_.wants(served.groups, tracked) ||
+             own.distance.isWatched() || (groups_wanted_ && isWantedOfGroups(served.groups, tracked)) ||
              (markers_wanted_ && are_markers_due_);
   const bool rows = constraints_.concerns(tracked);
   pair.due = pair.due || rows;
@@ -180,7 +179,7 @@ PairDemand TopicPublishers::demandOf(const ServedScene& served, std::size_t plac
 
 bool TopicPublishers::isIdle() const {
   return !nearest_wanted_ && !distances_wanted_ && !niches_wanted_ && !contacts_wanted_ && !alerts_wanted_ &&
-         groups_.isIdle() && !own_wanted_ && !markers_wanted_ && !markers_due_ && !constraints_.isWanted();
+         !groups_wanted_ && !own_wanted_ && !markers_wanted_ && !markers_due_ && !constraints_.isWanted();
 }
 
 PublishReport TopicPublishers::publish(const ServedScene& served, const PublishedPairs& pairs,
@@ -210,7 +209,7 @@ PublishReport TopicPublishers::publish(const ServedScene& served, const Publishe
     }
   }
   publishNearest(pairs, others, now);
-  groups_.publish(*served.scene, served.revision, served.groups, pairs, others, now);
+  if (groups_wanted_) publishGroups(*served.scene, served.groups, pairs, others, reference_frame_, now);
   publishAlerts(pairs);
   publishContacts(served, pairs, now);
   if (markers_due_) {
@@ -228,7 +227,7 @@ PublishReport TopicPublishers::publish(const ServedScene& served, const Publishe
 }
 
 void TopicPublishers::publishAlerts(const PublishedPairs& pairs) {
-  const bool repeat = repeat_alerts_.exchange(false);
+  const bool repeat = alerts_.takeNew();
   for (const auto& pair : pairs) {
     if (pair->tracked->warning_changed || (repeat && pair->tracked->warning.state() != WarningState::Clear)) {
       alerts_.publish(boost::make_shared<Alert>(toAlert(*pair)));

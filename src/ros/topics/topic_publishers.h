@@ -4,7 +4,6 @@
 #include <concave_distance/PairNiches.h>
 #include <ros/node_handle.h>
 
-#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -106,7 +105,6 @@ class TopicPublishers {
   ros::NodeHandle node_;
   std::string reference_frame_;
   PairTopicKeeper pair_topics_;
-  GroupPublishers groups_;
   WatchedTopic nearest_;
   WatchedTopic nearest_distance_;
   WatchedTopic distances_;
@@ -115,7 +113,6 @@ class TopicPublishers {
   WatchedTopic markers_;
   WatchedTopic alerts_;
   ConstraintTopic constraints_;
-  std::atomic<bool> repeat_alerts_{false};  ///< somebody has subscribed to the alerts
   // readDemand found these for this cycle.
   bool nearest_wanted_ = false;
   bool distances_wanted_ = false;
@@ -124,6 +121,7 @@ class TopicPublishers {
   bool markers_wanted_ = false;
   bool contact_markers_wanted_ = false;
   bool alerts_wanted_ = false;
+  bool groups_wanted_ = false;
   bool own_wanted_ = false;       ///< a pair's own topics
   bool are_markers_due_ = false;  ///< in this cycle, when somebody listens
   bool markers_due_ = false;

@@ -20,28 +20,27 @@ class WatchedTopic {
  public:
   WatchedTopic() = default;
 
-  /// @param on_subscribe called, from the node handle's queue, for every new subscriber
   template <typename Message>
   static WatchedTopic advertise(const ros::NodeHandle& node, const std::string& name,
-                                std::uint32_t queue_length, const std::function<void()>& on_subscribe = {}) {
+                                std::uint32_t queue_length) {
     // A node handle keeps 300 bytes of every publisher that it ever made.
     ros::NodeHandle own_node(node);
     WatchedTopic topic;
-    topic.subscribers_ = std::make_shared<std::atomic<int>>(0);
+    topic.subscribers_ = std::make_shared<Subscribers>();
     topic.publisher_ = own_node.advertise<Message>(
         name, queue_length,
-        [count = topic.subscribers_, on_subscribe](const ros::SingleSubscriberPublisher&) {
-          ++*count;
-          if (on_subscribe) {
-            on_subscribe();
-          }
+        [subscribers = topic.subscribers_](const ros::SingleSubscriberPublisher&) {
+          ++subscribers->count;
+          subscribers->has_new = true;
         },
-        [count = topic.subscribers_](const ros::SingleSubscriberPublisher&) { --*count; });
+        [subscribers = topic.subscribers_](const ros::SingleSubscriberPublisher&) { --subscribers->count; });
     return topic;
   }
 
   explicit operator bool() const { return subscribers_ != nullptr; }
-  bool isWatched() const { return subscribers_ && *subscribers_ > 0; }
+  bool isWatched() const { return subscribers_ && subscribers_->count > 0; }
+  /// Returns whether somebody has subscribed since the last call.
+  bool takeNew() const { return subscribers_->has_new.exchange(false); }
 
   template <typename MessagePointer>
   void publish(const MessagePointer& message) const {
@@ -49,8 +48,12 @@ class WatchedTopic {
   }
 
  private:
+  struct Subscribers {
+    std::atomic<int> count{0};
+    std::atomic<bool> has_new{false};
+  };
   ros::Publisher publisher_;
-  std::shared_ptr<std::atomic<int>> subscribers_;
+  std::shared_ptr<Subscribers> subscribers_;
 };
 
 }  // namespace concave_distance

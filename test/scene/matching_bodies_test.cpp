@@ -1,5 +1,5 @@
 // Which bodies stand for a group, and how many pairs face it.
-#include "scene/group_members.h"
+#include "scene/matching_bodies.h"
 
 #include <gtest/gtest.h>
 
@@ -8,10 +8,9 @@
 #include "scene/scene_edits.h"
 #include "support/box_scene.h"
 
-namespace concave_distance::group_members_test {
+namespace concave_distance::matching_bodies_test {
 namespace {
 
-using detail::GroupMembers;
 using detail::OperationKind;
 using detail::SceneOperation;
 
@@ -42,13 +41,12 @@ void apply(Scene& scene, OperationKind kind, const std::string& body, const std:
   ASSERT_TRUE(applied.faults.empty()) << applied.faults.front().error.what();
 }
 
-/// The names of the groups that face each other in a pair.
+/// The names of the groups that one body of the pair stands for and the other does not.
 std::string facing(const Scene& scene, const std::string& a, const std::string& b) {
-  const GroupMembers members(scene);
-  const GroupMembers::Mask mask = members.facing(*scene.findBody(a), *scene.findBody(b));
   std::string names;
-  for (std::size_t i = 0; i < members.names().size(); ++i) {
-    if ((mask >> i & 1U) != 0) names += members.names()[i] + " ";
+  for (const auto& group : scene.groups) {
+    const std::vector<bool> stands = detail::standingFor(scene, group.first);
+    if (stands[*scene.findBody(a)] != stands[*scene.findBody(b)]) names += group.first + " ";
   }
   return names;
 }
@@ -87,22 +85,15 @@ TEST(GroupMembers, CountTheirPairs) {
     } else {
       apply(scene, OperationKind::Move, body);
     }
-    const GroupMembers members(scene);
     const PairList pairs = allPairs(scene);
-    for (std::size_t group = 0; group < members.names().size(); ++group) {
+    for (const auto& group : scene.groups) {
+      const std::vector<bool> stands = detail::standingFor(scene, group.first);
       std::size_t count = 0;
-      for (const ScenePair& pair : pairs) count += members.facing(pair.body_a, pair.body_b) >> group & 1U;
-      ASSERT_EQ(members.countFacing(scene, group), count) << members.names()[group] << ", step " << step;
+      for (const ScenePair& pair : pairs) count += stands[pair.body_a] != stands[pair.body_b] ? 1 : 0;
+      ASSERT_EQ(detail::countFacing(scene, stands), count) << group.first << ", step " << step;
     }
   }
 }
 
-TEST(GroupMembers, AreThoseOfTheFirstGroupsByName) {
-  Scene scene = cell();
-  for (int i = 0; i < 100; ++i) scene.groups["z" + std::to_string(i)] = {"table"};
-  EXPECT_EQ(GroupMembers(scene).names().size(), GroupMembers::kMostGroups);
-  EXPECT_EQ(GroupMembers(scene).names().front(), "empty");
-}
-
 }  // namespace
-}  // namespace concave_distance::group_members_test
+}  // namespace concave_distance::matching_bodies_test
