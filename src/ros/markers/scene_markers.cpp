@@ -21,8 +21,11 @@ using visualization_msgs::Marker;
 constexpr double kScaleShare = 0.009;   // diameter of the nearest points over the scene's size
 constexpr double kFarShare = 0.2;       // end of the colour gradient over the scene's size
 constexpr double kSizeOfNothing = 1.0;  // m
-constexpr double kTintOffset = 0.1;     // distance of a red copy from the surface, over the scale
-constexpr double kTintLives = 3.0;      // lifetime of a red copy, in renewals
+constexpr double kRow = 1.2;            // from a label to the one above it, in letters
+constexpr double kWidth = 5.0;          // of a label that others are kept from, likewise
+constexpr std::size_t kMostStacked = 50;
+constexpr double kTintOffset = 0.1;  // distance of a red copy from the surface, over the scale
+constexpr double kTintLives = 3.0;   // lifetime of a red copy, in renewals
 // Diameter of the largest red body over that of the region: a red floor would hide the rest.
 constexpr double kLargestTint = 1.0;
 
@@ -36,6 +39,23 @@ MarkerStyle fitted(MarkerStyle style, double size) {
   if (style.scale == 0.0) style.scale = kScaleShare * size;
   if (style.far == 0.0) style.far = style.near + roundedUp(kFarShare * size);
   return style;
+}
+
+// Raises labels that would cover one of a nearer pair.
+void stack(std::vector<Marker>& labels) {
+  for (std::size_t i = 0; i < std::min(labels.size(), kMostStacked); ++i) {
+    geometry_msgs::Point& place = labels[i].pose.position;
+    const double letters = labels[i].scale.z;
+    const auto is_covered = [&](const Marker& label) {
+      const geometry_msgs::Point& other = label.pose.position;
+      return std::hypot(place.x - other.x, place.y - other.y) < kWidth * letters &&
+             std::abs(place.z - other.z) < 0.999 * kRow * letters;
+    };
+    const auto end = labels.begin() + static_cast<std::ptrdiff_t>(i);
+    for (auto at = labels.begin(); (at = std::find_if(labels.begin(), end, is_covered)) != end;) {
+      place.z = at->pose.position.z + kRow * letters;
+    }
+  }
 }
 
 }  // namespace
@@ -59,11 +79,14 @@ visualization_msgs::MarkerArray SceneMarkers::draw(const Scene& scene, const Mar
     for (const PairContactState& pair : contacts) {
       if (!pair.contacts.empty()) labelled.insert(pair.pair);
     }
+    std::vector<Marker> labels = contactLabels(contacts, style.niche_count, style.scale);
     for (const DrawnPair& pair : selected) {
       append(nicheMarkers(pair, style), markers);
-      if (labelled.count(pair.pair->nearest.pair) == 0) markers.push_back(nicheLabel(*pair.pair, style));
+      if (labelled.count(pair.pair->nearest.pair) == 0) labels.push_back(nicheLabel(*pair.pair, style));
       drawn.emplace(pair.pair->nearest.pair, *pair.pair);
     }
+    stack(labels);
+    append(std::move(labels), markers);
     tints = drawWarnings(scene, selected, style.scale, header.stamp, lifetime, markers);
   }
   drawn_ = std::move(drawn);
@@ -102,7 +125,6 @@ void SceneMarkers::drawContacts(const Scene& scene, const PublishedPairs& pairs,
     append(contactMarkers(contact, pressures.has_marker, style), markers);
     append(std::move(pressures.markers), markers);
   }
-  append(contactLabels(contacts, style.niche_count, style.scale), markers);
 }
 
 ShownMarkers SceneMarkers::drawWarnings(const Scene& scene, const std::vector<DrawnPair>& drawn, double scale,

@@ -175,7 +175,22 @@ TEST(SceneMarkers, DrawTheShortestDistanceOfAPairWhoseNichesAreNotKnown) {
   EXPECT_NEAR(lines[0].points[1].x - lines[0].points[0].x, 0.1, 1e-12);
 }
 
-TEST(SceneMarkers, NameEveryDrawnPairAtItsLineAndDrawTheNearestThick) {
+// A row of contacts far from each other, the last the deepest: k + 1 mm.
+PairContactState manyContacts(std::size_t count) {
+  PairContactState state;
+  state.pair = "middle/box_1";
+  for (std::size_t k = 0; k < count; ++k) {
+    Contact contact;
+    contact.id = k + 1;
+    contact.has_depth = 1;
+    contact.depth = 1e-3 * static_cast<double>(k + 1);
+    contact.centroid.x = 100.0 * static_cast<double>(k + 1);
+    state.contacts.push_back(contact);
+  }
+  return state;
+}
+
+TEST(SceneMarkers, NameEveryDrawnPairAboveItsLineAndDrawTheNearestThick) {
   Picture picture(12);
   picture.style.pair_count = 0;
   const MarkerArray message = picture.draw();
@@ -183,13 +198,26 @@ TEST(SceneMarkers, NameEveryDrawnPairAtItsLineAndDrawTheNearestThick) {
   ASSERT_EQ(texts.size(), 12U);
   EXPECT_EQ(texts[0].text, "middle - box_1: 100 mm");
   EXPECT_EQ(texts[1].text, "middle - box_2: 150 mm");
+  const double first = withKind(message, "middle/box_1/line").front().scale.x;
   for (const Marker& text : texts) {
     const Marker line = withKind(message, text.ns.substr(0, text.ns.rfind('/')) + "/line").front();
     EXPECT_NEAR(text.pose.position.x, 0.5 * (line.points[0].x + line.points[1].x), 1e-12);
     EXPECT_NEAR(text.pose.position.y, 0.5 * (line.points[0].y + line.points[1].y), 1e-12);
-    EXPECT_NEAR(text.pose.position.z, line.points[0].z, 2.0 * text.scale.z);
-    const double first = withKind(message, "middle/box_1/line").front().scale.x;
+    EXPECT_GT(text.pose.position.z, line.points[0].z + 0.5 * text.scale.z);
     EXPECT_EQ(line.scale.x < 0.6 * first, text.ns != "middle/box_1/text");
+  }
+}
+
+TEST(SceneMarkers, LabelsAtOnePlaceStandAboveEachOtherTheNearestLowest) {
+  Picture picture(3);
+  picture.contacts = {manyContacts(6)};
+  for (Contact& contact : picture.contacts[0].contacts) contact.centroid = geometry_msgs::Point();
+  const std::vector<Marker> labels = withKind(picture.draw(), "/contact_text");
+  ASSERT_EQ(labels.size(), 6U);
+  for (std::size_t k = 1; k < labels.size(); ++k) {
+    EXPECT_LT(labels[k].id, labels[k - 1].id) << "the deepest first";
+    EXPECT_GT(labels[k].pose.position.z, labels[k - 1].pose.position.z + labels[k].scale.z);
+    EXPECT_LT(labels[k].pose.position.z, labels[k - 1].pose.position.z + 1.5 * labels[k].scale.z);
   }
 }
 
@@ -219,21 +247,6 @@ TEST(SceneMarkers, GrowWithTheScene) {
   const std::vector<double> large = sizes(1000.0);
   ASSERT_EQ(small.size(), large.size());
   for (std::size_t k = 0; k < small.size(); ++k) EXPECT_NEAR(small[k], large[k], 1e-9 * large[k]);
-}
-
-// A row of contacts far from each other, the last the deepest: k + 1 mm.
-PairContactState manyContacts(std::size_t count) {
-  PairContactState state;
-  state.pair = "middle/box_1";
-  for (std::size_t k = 0; k < count; ++k) {
-    Contact contact;
-    contact.id = k + 1;
-    contact.has_depth = 1;
-    contact.depth = 1e-3 * static_cast<double>(k + 1);
-    contact.centroid.x = 100.0 * static_cast<double>(k + 1);
-    state.contacts.push_back(contact);
-  }
-  return state;
 }
 
 TEST(SceneMarkers, LabelTheDeepestContactsAsManyAsNiches) {
