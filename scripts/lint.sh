@@ -39,7 +39,7 @@ check_catkin() {
   catkin_lint -W2 --strict --offline --ignore package_path_name .  # a clone may have any name
 }
 check_shell() {
-  shellcheck -x scripts/*.sh .ci/run
+  shellcheck -x scripts/*.sh test/fuzz/fuzz.sh .ci/run
 }
 
 failed=()

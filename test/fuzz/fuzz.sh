@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
 # Builds the libFuzzer targets with clang (address and undefined behaviour sanitizers) and runs each for a while.
-#   scripts/fuzz.sh [seconds for each] [mesh] [urdf] [scene] [poses]      (default: 60 s, all of them)
+#   test/fuzz/fuzz.sh [seconds for each] [mesh] [urdf] [scene] [poses]      (default: 60 s, all of them)
 # The corpora grow in build-fuzz/corpus; what breaks is kept in build-fuzz/findings and replayed by
 #   build-fuzz/devel/lib/concave_distance/fuzz_<input> <file>
 # What it needs beyond the tests (clang with its runtime) is installed where it is missing.
 set -euo pipefail
 # shellcheck source=scripts/common.sh
-. "$(dirname "${BASH_SOURCE[0]}")/common.sh"
+. "$(dirname "${BASH_SOURCE[0]}")/../../scripts/common.sh"
 build_dir="${CONCAVE_DISTANCE_FUZZ_DIR:-$package_dir/build-fuzz}"
 
 seconds=60
