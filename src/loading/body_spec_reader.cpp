@@ -51,44 +51,6 @@ void readOverDefaults(YamlMap& map, const BodyDefaults& defaults, std::optional<
   if (auto v = map.take("material")) material = readMaterial(*v, defaults.materials);
 }
 
-std::vector<Selector> readSelectors(const YamlValue& value) {
-  std::vector<Selector> selectors;
-  for (const YamlValue& item : value.list("a list of bodies, groups and patterns")) {
-    selectors.push_back({item.where(), item.text()});
-  }
-  return selectors;
-}
-
-AttachmentSpec readAttachment(const YamlValue& value) {
-  YamlMap map(value, "a map with `to` and touch_links");
-  AttachmentSpec attachment;
-  const YamlValue parent = map.require("to", "name the body, link or frame that it is attached to");
-  attachment.parent = {parent.where(), parent.text()};
-  if (auto v = map.take("touch_links")) attachment.may_touch = readSelectors(*v);
-  if (auto v = map.take("switched_off")) {
-    for (const YamlValue& pair : v->list("a list of names of pairs")) {
-      attachment.switched_off.push_back(pair.text());
-    }
-  }
-  map.finish();
-  return attachment;
-}
-
-AddedSpec readAdded(const YamlValue& value) {
-  YamlMap map(value, "a map with all_but or only");
-  AddedSpec added;
-  const std::optional<YamlValue> all_but = map.take("all_but");
-  const std::optional<YamlValue> only = map.take("only");
-  if (all_but.has_value() == only.has_value()) {
-    value.fail(all_but ? "both 'all_but' and 'only' are given" : "neither 'all_but' nor 'only' is given",
-               "give one of them");
-  }
-  added.all = all_but.has_value();
-  added.bodies = readSelectors(all_but ? *all_but : *only);
-  map.finish();
-  return added;
-}
-
 std::string readLabel(const YamlValue& value) {
   std::string label = value.text();
   requirePairName(value, label);
@@ -147,7 +109,6 @@ RobotSpec readRobotSpec(const YamlValue& value, const BodyDefaults& defaults) {
   if (auto v = map.take("skip_links")) {
     for (const YamlValue& link : v->list("a list of links and patterns")) {
       robot.skipped_links.push_back({link.where(), link.text()});
-      robot.skip_links.push_back(link.text());
     }
   }
   if (auto v = map.take("margin")) robot.margin = readLengthOrZero(*v);
@@ -178,9 +139,6 @@ BodySpec readBodySpec(const YamlValue& value, const BodyDefaults& defaults) {
   }
   readShapes(map, description);
   if (auto v = map.take("placed")) body.frame_from_body = readPose(*v);
-  if (auto v = map.take("moved")) body.is_moved = v->boolean();
-  if (auto v = map.take("attached")) body.attached = readAttachment(*v);
-  if (auto v = map.take("added")) body.added = readAdded(*v);
   readLooks(map, body);
   readOverDefaults(map, defaults, description.max_edge_length, description.chord_error, body.material);
   map.finish();

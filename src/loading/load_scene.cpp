@@ -1,24 +1,26 @@
 #include "concave_distance/loading/load_scene.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <map>
 #include <set>
 #include <system_error>
 #include <utility>
 
-#include "attach_bodies.h"
 #include "build_bodies.h"
 #include "concave_distance/base/error.h"
 #include "mesh/surface/mesh_topology.h"
 #include "robot_at_rest.h"
 #include "robot_description.h"
 #include "robot_texts.h"
+#include "saved_operations.h"
 #include "scene/body_pool.h"
 #include "scene_parts.h"
 #include "scene_spec.h"
 #include "select_pairs.h"
 #include "settings_reader.h"
+#include "yaml_text.h"
 
 namespace concave_distance {
 namespace {
@@ -28,9 +30,12 @@ using detail::DescriptionText;
 using detail::PairSelection;
 using detail::RobotDescription;
 using detail::RobotSpec;
+using detail::SceneDocuments;
 using detail::SceneParts;
 using detail::SceneSpec;
 using detail::SelectedPair;
+
+using LinkPairs = std::vector<std::pair<std::string, std::string>>;
 
 // Enough to see what is missing; a list cut short says so.
 constexpr std::size_t kMostPairsListed = 10;
@@ -125,11 +130,23 @@ std::set<std::string> groupsOfRobots(const std::map<std::string, std::vector<std
   return names;
 }
 
-// Without meshes, which may be gone from the scene long before it is loaded again.
-void keepAsLoaded(Scene& scene) {
-  auto loaded = std::make_shared<Scene>(scene);
-  for (std::size_t i = 0; i < loaded->bodies.size(); ++i) loaded->bodies.edit(i).mesh = nullptr;
-  scene.loaded = std::move(loaded);
+// The scene file that loads the scene of one robot.
+std::string textOfRobotScene(const RobotSpec& robot, const Scene& scene, const LinkPairs& overlapping) {
+  detail::YamlItems items;
+  const auto add = [&](const char* key, const std::string& value) {
+    if (!value.empty()) items.add(key, detail::yamlText(value));
+  };
+  add("description", robot.description);
+  if (!robot.urdf.empty()) add("urdf", detail::savedResource(robot.urdf, ""));
+  add("semantic_description", robot.semantic_description);
+  add("geometry", robot.geometry == GeometrySource::Collision ? "collision" : "visual");
+  if (robot.chord_error) items.add("chord_error", detail::yamlNumber(*robot.chord_error));
+  std::string text = "robots:\n  - " + items.flow() + "\n";
+  if (scene.automatic_cutoff && std::isfinite(*scene.automatic_cutoff))
+    text += "defaults: {cutoff: " + detail::yamlNumber(*scene.automatic_cutoff) + "}\n";
+  if (!overlapping.empty()) text += "disable:\n";
+  for (const auto& [a, b] : overlapping) text += "  - " + detail::yamlTexts({a, b}) + "\n";
+  return text;
 }
 
 void requireNoProblem(const Scene& scene) {
@@ -163,7 +180,6 @@ Scene assemble(const SceneSpec& spec, SceneParts parts, const SceneLoadOptions& 
   scene.groups = std::move(selection.groups);
   scene.robots = parts.robots;
   scene.groups_of_robots = groupsOfRobots(scene.groups, spec);
-  scene.named_robots = std::make_shared<const std::vector<SceneRobot>>(std::move(parts.named_robots));
   scene.notes = std::move(parts.notes);
   scene.warnings = std::move(parts.warnings);
   scene.problems = std::move(parts.problems);
@@ -177,8 +193,6 @@ Scene assemble(const SceneSpec& spec, SceneParts parts, const SceneLoadOptions& 
       body_of_source[i] = scene.bodies.size();
       built[i].body->label = outline.bodies[i].label;
       built[i].body->pair_class = outline.bodies[i].pair_class;
-      if (const auto added = selection.added.find(built[i].body->name); added != selection.added.end())
-        built[i].body->added_rule = added->second;
       scene.bodies.push_back(std::move(*built[i].body));
     } else if (parts.sources[i].cloud && !options.clouds) {
       scene.warnings.push_back("cloud '" + parts.sources[i].name +
@@ -194,7 +208,6 @@ Scene assemble(const SceneSpec& spec, SceneParts parts, const SceneLoadOptions& 
     const std::optional<std::size_t> b = body_of_source[pair.body_b];
     if (a && b) scene.pairs.push_back({pair.name, *a, *b, pair.enabled, pair.settings});
   }
-  detail::attachBodies(spec.bodies, scene);
   noteOpenBodies(scene);
   scene.notes.insert(scene.notes.end(), selection.notes.begin(), selection.notes.end());
   return scene;
@@ -204,20 +217,19 @@ Scene assemble(const SceneSpec& spec, SceneParts parts, const SceneLoadOptions& 
 
 Scene loadSceneText(const std::string& yaml, const std::string& where, const std::string& base_folder,
                     const SceneLoadOptions& options) {
-  const SceneSpec spec = detail::readSceneSpec(yaml, where, base_folder, options);
+  const SceneDocuments documents = detail::readSceneDocuments(yaml, where, base_folder);
+  const std::string& folder = documents.folder;
+  const SceneSpec spec = detail::readSceneSpec(documents.scene, where, folder, options);
   SceneParts parts;
-  for (const RobotSpec& robot : spec.robots) detail::readRobot(robot, base_folder, options, parts);
-  for (const detail::BodySpec& body : spec.bodies) detail::addBody(body, base_folder, parts);
-  std::vector<std::pair<std::string, std::string>> joined_by_tf;
-  for (const std::vector<std::string>& frames : spec.rigid_frames) {
-    for (std::size_t i = 1; i < frames.size(); ++i) joined_by_tf.emplace_back(frames[0], frames[i]);
-  }
-  for (const auto& [a, b] : joined_by_tf) parts.rigid.join(a, b);
+  for (const RobotSpec& robot : spec.robots) detail::readRobot(robot, folder, options, parts);
+  for (const detail::BodySpec& body : spec.bodies) detail::addBody(body, folder, parts);
   Scene scene = assemble(spec, parts, options);
-  scene.joined_by_tf = std::move(joined_by_tf);
   detail::limitManyPairs(scene);
+  detail::applySaved(documents.operations, base_folder, options, scene);
+  scene.file = std::make_shared<const SceneText>(
+      SceneText{documents.scene, detail::savedResource(folder, ""), std::move(scene.operations)});
+  scene.operations.clear();
   if (options.strict) requireNoProblem(scene);
-  keepAsLoaded(scene);
   return scene;
 }
 
@@ -226,8 +238,8 @@ Scene loadSceneFile(const std::string& path, const SceneLoadOptions& options) {
 }
 
 std::vector<std::string> descriptionsOfSceneFile(const std::string& path) {
-  const SceneSpec spec = detail::readSceneSpec(detail::readTextFile(path, "scene file"), path,
-                                               detail::folderOf(path), SceneLoadOptions{});
+  const std::string text = detail::sceneTextOf(detail::readTextFile(path, "scene file"));
+  const SceneSpec spec = detail::readSceneSpec(text, path, detail::folderOf(path), SceneLoadOptions{});
   std::vector<std::string> names;
   for (const RobotSpec& robot : spec.robots) {
     for (const std::string& name : {robot.description, robot.semantic_description}) {
@@ -257,16 +269,16 @@ Scene loadRobotScene(const std::string& urdf, const std::string& where, const Sc
   if (options.descriptions.count(kSemanticDescription) != 0) {
     robot.semantic_description = kSemanticDescription;
     detail::readSemantics(robot, description, "", options, parts);
-    if (!is_file)
-      parts.named_robots.back().semantic_description = where + "_semantic";  // as requests name it
+    if (!is_file) robot.semantic_description = where + "_semantic";  // as requests name it
   }
   Scene scene = assemble(spec, parts, options);
   if (options.automatic_cutoff) detail::setAutomaticCutoff(scene);
   detail::limitManyPairs(scene);
   detail::warnOfNoGeometry(scene, description, options.geometry);
-  detail::reportOverlappingPairs(scene, options);
+  const LinkPairs overlapping = detail::reportOverlappingPairs(scene, options);
+  scene.file =
+      std::make_shared<const SceneText>(SceneText{textOfRobotScene(robot, scene, overlapping), "", {}});
   if (options.strict) requireNoProblem(scene);
-  keepAsLoaded(scene);
   return scene;
 }
 

@@ -209,29 +209,32 @@ void warnOfNoGeometry(Scene& scene, const RobotDescription& robot, GeometrySourc
   scene.warnings.push_back(text);
 }
 
-void reportOverlappingPairs(Scene& scene, const SceneLoadOptions& options) {
-  if (scene.robots.empty()) return;
+std::vector<std::pair<std::string, std::string>> reportOverlappingPairs(Scene& scene,
+                                                                        const SceneLoadOptions& options) {
+  if (scene.robots.empty()) return {};
   const PairList all = allPairs(scene, kMostTried);
   const std::vector<std::size_t> pairs =
       pairsThatAlwaysOverlap(scene, all, *scene.robots.front(), options.progress);
-  if (pairs.empty()) return;
+  if (pairs.empty()) return {};
   const std::string text = describeOverlap(all, pairs);
   if (!options.skip_overlapping_pairs) {
     scene.warnings.push_back(text + ". If this is intended, disable them in its SRDF, or set " +
                              "~skip_overlapping_pairs");
-    return;
+    return {};
   }
   scene.notes.push_back(text + ". They are left out because ~skip_overlapping_pairs is set");
   auto filtered =
       scene.rules.filtered ? *scene.rules.filtered : std::vector<std::pair<std::uint64_t, std::uint64_t>>();
+  std::vector<std::pair<std::string, std::string>> left_out;
   for (const std::size_t pair : pairs) {
     const SceneBody& a = scene.bodies[all[pair].body_a];
     const SceneBody& b = scene.bodies[all[pair].body_b];
     filtered.emplace_back(std::minmax(a.serial, b.serial));
-    scene.overlapping.push_back(filtered.back());
+    left_out.emplace_back(a.name, b.name);
   }
   std::sort(filtered.begin(), filtered.end());
   scene.rules.filtered = std::make_shared<const decltype(filtered)>(std::move(filtered));
+  return left_out;
 }
 
 }  // namespace concave_distance::detail

@@ -1,6 +1,9 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "concave_distance/loading/load_scene.h"
 #include "concave_distance/scene/scene.h"
@@ -28,6 +31,8 @@ void warnOfNoGeometry(Scene& scene, const RobotDescription& robot, GeometrySourc
 /// Adds a warning that names the enabled pairs whose bodies overlap in the zero pose and in each of 20 random
 /// poses: usually links that overlap by design. options.skip_overlapping_pairs leaves them out. Does nothing
 /// when loading was stopped.
-void reportOverlappingPairs(Scene& scene, const SceneLoadOptions& options);
+/// @return the bodies of each pair that is left out
+std::vector<std::pair<std::string, std::string>> reportOverlappingPairs(Scene& scene,
+                                                                        const SceneLoadOptions& options);
 
 }  // namespace concave_distance::detail

@@ -89,7 +89,6 @@ void readRobot(const RobotSpec& spec, const std::string& base_folder, const Scen
     return;
   }
   addRobot(spec, robot, urdf, parts);
-  parts.named_robots.back().base_folder = base_folder;
   readSemantics(spec, robot, base_folder, options, parts);
 }
 

@@ -42,8 +42,7 @@ std::set<std::string> skippedLinks(const RobotSpec& spec, const RobotDescription
   return skipped;
 }
 
-BodySource linkSource(const RobotSpec& spec, const RobotLink& link, const DescriptionText& urdf,
-                      const SceneParts& parts) {
+BodySource linkSource(const RobotSpec& spec, const RobotLink& link, const DescriptionText& urdf) {
   BodySource source;
   source.name = bodyName(spec, link.name);
   source.frame = source.name;
@@ -59,10 +58,6 @@ BodySource linkSource(const RobotSpec& spec, const RobotLink& link, const Descri
     source.margin = own->second.margin.value_or(spec.margin);
     source.label = own->second.label;
   }
-  BodyOrigin origin;
-  origin.link = link.name;
-  origin.robot = parts.named_robots.size();
-  source.origin = std::make_shared<const BodyOrigin>(std::move(origin));
   source.in_robot_model = !spec.description.empty();
   source.is_robot_link = true;
   source.inertia = link.inertia;
@@ -83,8 +78,8 @@ void addLinks(const RobotSpec& spec, const RobotDescription& robot, const Descri
       ++bare;
       continue;
     }
-    addSource(linkSource(spec, link, urdf, parts), spec.where,
-              "give one of the robots a prefix, or skip the link", parts);
+    addSource(linkSource(spec, link, urdf), spec.where, "give one of the robots a prefix, or skip the link",
+              parts);
     members.push_back(bodyName(spec, link.name));
     served.push_back(link.name);
   }
@@ -96,8 +91,6 @@ void addLinks(const RobotSpec& spec, const RobotDescription& robot, const Descri
   parts.notes.push_back(urdf.where + ": " + counted(members.size(), "link") + " with geometry, " +
                         std::to_string(bare) + " without, " + std::to_string(skipped.size()) + " skipped");
   parts.groups.emplace_back(spec.name.empty() ? spec.prefix + robot.name : spec.name, std::move(members));
-  parts.named_robots.push_back(spec);
-  parts.named_robots.back().links = std::move(served);
 }
 
 // A robot whose joints make no sense is served all the same: tf says where its links are.
@@ -167,7 +160,6 @@ void addBody(const BodySpec& spec, const std::string& base_folder, SceneParts& p
   source.material = spec.material;
   source.label = spec.label;
   source.frame_from_body = spec.frame_from_body;
-  if (spec.is_moved) source.carrier = source.serial;
   source.cloud = spec.cloud;
   addSource(std::move(source), spec.where, "give it another name", parts);
 }

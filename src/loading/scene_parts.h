@@ -36,7 +36,6 @@ struct SceneParts {
   std::vector<std::string> notes;
   std::vector<std::string> warnings;
   std::vector<std::shared_ptr<const RobotKinematics>> robots;  ///< those whose joints can be moved
-  std::vector<SceneRobot> named_robots;                        ///< that could be read
   std::vector<SceneProblem> problems;                          ///< URDFs and SRDFs that cannot be read
   bool robot_failed = false;  ///< a name that nobody knows may be one of its links
 

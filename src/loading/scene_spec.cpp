@@ -1,13 +1,11 @@
 #include "scene_spec.h"
 
 #include <algorithm>
-#include <filesystem>
 #include <map>
 
 #include "body_spec_reader.h"
 #include "cloud_spec_reader.h"
 #include "concave_distance/base/error.h"
-#include "kinematics/frame_name.h"
 #include "scene/name_pattern.h"
 #include "settings_reader.h"
 #include "simulation_reader.h"
@@ -121,17 +119,6 @@ std::vector<GroupSpec> readGroups(const YamlValue& value, Names& names) {
   return groups;
 }
 
-std::vector<std::vector<std::string>> readRigidFrames(const YamlValue& value) {
-  std::vector<std::vector<std::string>> sets;
-  for (const YamlValue& item : value.list("a list of lists of frames")) {
-    std::vector<std::string>& frames = sets.emplace_back();
-    for (const YamlValue& frame : item.list("a list of frames that do not move against each other")) {
-      frames.push_back(requireFrameName(frame.text(), frame.where()));
-    }
-  }
-  return sets;
-}
-
 }  // namespace
 
 SceneSpec readSceneSpec(const std::string& yaml, const std::string& file, const std::string& base_folder,
@@ -179,7 +166,6 @@ SceneSpec readSceneSpec(const std::string& yaml, const std::string& file, const 
     }
   }
   if (auto v = map.take("groups")) spec.groups = readGroups(*v, body_names);
-  if (auto v = map.take("rigid_frames")) spec.rigid_frames = readRigidFrames(*v);
   Names pair_names;
   if (auto v = map.take("pairs")) spec.pairs = readPairs(*v, spec.defaults.pairs, pair_names);
   if (auto v = map.take("disable")) {

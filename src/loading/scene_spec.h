@@ -30,23 +30,21 @@ struct LinkSpec {
   std::string label;             ///< empty: from its name
 };
 
-struct RobotSpec : SceneRobot {
+struct RobotSpec {
   std::string where;
+  std::string name;                  ///< of its group; empty: `<prefix><name in the URDF>`
+  std::string description;           ///< parameter with the URDF, or empty and
+  std::string urdf;                  ///< ... the file
+  std::string semantic_description;  ///< parameter with the SRDF, or
+  std::string srdf;                  ///< ... the file, or neither
+  std::string prefix;                ///< put before link names, in bodies and frames
+  GeometrySource geometry = GeometrySource::Collision;
   std::vector<Selector> skipped_links;
+  double margin = 0.0;  ///< metres, of each link
+  std::optional<double> max_edge_length;
+  std::optional<double> chord_error;
+  Material material;
   std::map<std::string, LinkSpec> own;  ///< by the link's name in the URDF
-};
-
-/// Says what a body is attached to, as a file has it.
-struct AttachmentSpec {
-  Selector parent;
-  std::vector<Selector> may_touch;
-  std::vector<std::string> switched_off;  ///< as Attachment::switched_off
-};
-
-/// Which of the bodies above it a body is watched against, as one that was added while the scene ran.
-struct AddedSpec {
-  bool all = false;  ///< every body but `bodies`; false: `bodies` alone
-  std::vector<Selector> bodies;
 };
 
 struct BodySpec {
@@ -57,10 +55,7 @@ struct BodySpec {
   Material material;
   std::string label;                                                  ///< empty: from its name
   Eigen::Isometry3d frame_from_body = Eigen::Isometry3d::Identity();  ///< besides the poses of its shapes
-  bool is_moved = false;                                              ///< as by an edit
-  std::optional<AttachmentSpec> attached;
-  std::optional<AddedSpec> added;
-  std::shared_ptr<const CloudState> cloud;  ///< of an entry of `clouds`
+  std::shared_ptr<const CloudState> cloud;                            ///< of an entry of `clouds`
 };
 
 struct GroupSpec {
@@ -90,7 +85,6 @@ struct SceneSpec {
   std::vector<GroupSpec> groups;
   std::optional<std::vector<PairSpec>> pairs;  ///< nothing: every body against every other
   std::vector<std::array<Selector, 2>> disabled;
-  std::vector<std::vector<std::string>> rigid_frames;  ///< sets of frames that static transforms join
   SceneDefaults defaults;
   std::size_t metric_memory_limit = 0;  ///< bytes
   std::optional<SimulationSettings> simulation;

@@ -67,7 +67,6 @@ class Selection {
     }
     for (const auto& sides : spec_.disabled) disable(sides);
     rules_.makeRules(result_);
-    for (const BodySpec& body : spec_.bodies) addRuleOf(body);
     noteFilteredPairs(parts_, result_);
     for (const NamedPair& pair : named_) result_.pairs.push_back(settle(pair));
     for (const auto& [name, sources] : selector_.groups()) {
@@ -151,16 +150,6 @@ class Selection {
     requireNoName(entry);
     rules_.add({entries_, &entry, sideOf(sourcesOf(entry.between[0].names)),
                 sideOf(sourcesOf(entry.between[1].names))});
-  }
-
-  void addRuleOf(const BodySpec& body) {
-    if (!body.added) return;
-    AddedBodyRule rule;
-    rule.all = body.added->all;
-    for (const std::size_t source : sourcesOf(body.added->bodies)) {
-      rule.bodies.insert(parts_.sources[source].serial);
-    }
-    result_.added[body.description.name] = std::make_shared<const AddedBodyRule>(std::move(rule));
   }
 
   NamedPair* findNamed(std::size_t a, std::size_t b) {

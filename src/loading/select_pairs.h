@@ -29,9 +29,8 @@ struct PairSelection {
   PairRules rules;                     ///< of all others, without PairRules::filtered
   std::vector<std::uint32_t> classes;  ///< of the sources
   std::vector<std::string> labels;     ///< of the sources, each usable in a topic's name and once only
-  std::map<std::string, std::shared_ptr<const AddedBodyRule>> added;  ///< by body name
-  std::vector<std::pair<std::size_t, std::size_t>> filtered;          ///< sources whose pair no rule gives
-  std::vector<SceneProblem> problems;  ///< pairs asked for by name that cannot be
+  std::vector<std::pair<std::size_t, std::size_t>> filtered;  ///< sources whose pair no rule gives
+  std::vector<SceneProblem> problems;                         ///< pairs asked for by name that cannot be
   std::vector<std::string> notes;
   std::map<std::string, std::vector<std::string>> groups;  ///< names of their sources
 };

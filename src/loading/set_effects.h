@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "concave_distance/scene/scene.h"
+#include "scene/scene_operation.h"
 
 namespace concave_distance {
 
@@ -15,4 +16,14 @@ namespace concave_distance {
 ///         is allowed. Pairs may have been set by then: work on a copy
 std::vector<std::string> setEffects(Scene& scene, const std::string& pattern, const std::string& yaml);
 
+namespace detail {
+
+/// Returns the operation that does this. @param where names the text in errors. @throws Error for no YAML
+SceneOperation effectsOperation(const std::string& pattern, const std::string& yaml,
+                                const std::string& where);
+
+/// Returns all of these effects as a text, which leaves nothing of those that it is laid over.
+std::string effectsText(const EffectSettings& effects);
+
+}  // namespace detail
 }  // namespace concave_distance

@@ -82,17 +82,7 @@ std::string yamlPose(const Eigen::Isometry3d& pose) {
 }
 
 std::string YamlItems::flow() const {
-  return "{" + bare() + "}";
-}
-
-std::string YamlItems::bare() const {
-  return joinedText(items_, ", ");
-}
-
-std::string YamlItems::block(const std::string& first, const std::string& indent) const {
-  std::string text;
-  for (const std::string& item : items_) text += (text.empty() ? first : indent) + item + "\n";
-  return text;
+  return "{" + joinedText(items_, ", ") + "}";
 }
 
 }  // namespace concave_distance::detail

@@ -19,17 +19,12 @@ std::string yamlTexts(const std::vector<std::string>& texts);
 /// matrix.
 std::string yamlPose(const Eigen::Isometry3d& pose);
 
-/// Writes `key: value` items, as the lines of a map that stands in a list or in a section, or in one line.
+/// Writes `key: value` items as a map in one line.
 class YamlItems {
  public:
   void add(const std::string& key, const std::string& value) { items_.push_back(key + ": " + value); }
-  bool empty() const { return items_.empty(); }
   /// "{a: 1, b: 2}"
   std::string flow() const;
-  /// "a: 1, b: 2"
-  std::string bare() const;
-  /// Lines, each behind `indent`; the first behind `first`.
-  std::string block(const std::string& first, const std::string& indent) const;
 
  private:
   std::vector<std::string> items_;

@@ -111,12 +111,18 @@ struct Parent {
   std::uint64_t carrier = 0;
 };
 
+Parent bodyAsParent(const Scene& scene, std::size_t body, std::size_t parent) {
+  requireNoCycle(scene, body, parent);
+  const SceneBody& carries = scene.bodies[parent];
+  return {carries.frame, carries.frame_from_body, carries.serial, carries.carrier};
+}
+
+Parent frameAsParent(const std::string& frame) {
+  return {frame, Eigen::Isometry3d::Identity(), 0, 0};
+}
+
 Parent parentNamed(const Scene& scene, std::size_t body, const std::string& name, const FramesNow& frames) {
-  if (const std::optional<std::size_t> index = scene.findBody(name)) {
-    requireNoCycle(scene, body, *index);
-    const SceneBody& parent = scene.bodies[*index];
-    return {parent.frame, parent.frame_from_body, parent.serial, parent.carrier};
-  }
+  if (const std::optional<std::size_t> index = scene.findBody(name)) return bodyAsParent(scene, body, *index);
   if (scene.groups.count(name) != 0) {
     throw Error(whereOf(scene.bodies[body].name), "'" + name + "' is a group",
                 "attach it to one body or frame");
@@ -125,7 +131,19 @@ Parent parentNamed(const Scene& scene, std::size_t body, const std::string& name
     throw Error(whereOf(scene.bodies[body].name), "there is neither a body nor a tf frame '" + name + "'",
                 "list_bodies has the names of bodies");
   }
-  return {name, Eigen::Isometry3d::Identity(), 0, 0};
+  return frameAsParent(name);
+}
+
+void requireUnattached(const SceneBody& body) {
+  if (!body.attachment) return;
+  throw Error(whereOf(body.name), "it is attached to '" + body.attachment->parent + "' already",
+              "detach it first");
+}
+
+void requireNotCarried(const SceneBody& body) {
+  if (!body.attachment) return;
+  throw Error(whereOf(body.name), "it is attached to '" + body.attachment->parent + "', which moves it",
+              "detach it first");
 }
 
 void switchOffTouching(Scene& scene, std::size_t body, Attachment& attachment) {
@@ -140,16 +158,59 @@ void switchOffTouching(Scene& scene, std::size_t body, Attachment& attachment) {
   }
 }
 
+// Where its pose in the parent puts it, so that a journal puts it there, too.
+std::vector<std::string> attach(Scene& scene, std::size_t index, const std::string& name,
+                                const Parent& parent, const Eigen::Isometry3d& parent_from_body,
+                                const std::vector<std::string>& may_touch) {
+  auto attachment = std::make_shared<Attachment>();
+  attachment->parent = name;
+  attachment->parent_serial = parent.serial;
+  attachment->parent_from_body = parent_from_body;
+  attachment->carrier_before = scene.bodies[index].carrier;
+  std::vector<std::string> unknown;
+  for (const std::string& text : may_touch) {
+    const std::vector<std::size_t> bodies = findMatchingBodies(scene, text).bodies;
+    if (bodies.empty()) unknown.push_back(text);
+    for (const std::size_t other : bodies) attachment->may_touch.insert(scene.bodies[other].serial);
+  }
+  SceneBody& body = scene.bodies.edit(index);
+  body.frame = parent.frame;
+  body.frame_from_body = parent.frame_from_parent * parent_from_body;
+  body.carrier = parent.carrier;
+  switchOffTouching(scene, index, *attachment);
+  body.attachment = std::move(attachment);
+  carryAlong(scene, index);
+  return unknown;
+}
+
+// What is attached to the body goes with it.
+void place(Scene& scene, std::size_t index, std::string frame, const Eigen::Isometry3d& frame_from_body,
+           std::uint64_t carrier) {
+  SceneBody& body = scene.bodies.edit(index);
+  body.frame = std::move(frame);
+  body.frame_from_body = frame_from_body;
+  body.carrier = carrier;
+  carryAlong(scene, index);
+}
+
+void release(Scene& scene, std::size_t index, const std::string& frame,
+             const Eigen::Isometry3d& frame_from_body) {
+  const std::shared_ptr<const Attachment> attachment = scene.bodies[index].attachment;
+  scene.bodies.edit(index).attachment = nullptr;
+  place(scene, index, frame, frame_from_body, attachment->carrier_before);
+  for (const std::string& pair : attachment->switched_off) {
+    if (const auto listed = scene.pairs.find(pair)) scene.pairs.edit(*listed).enabled = true;
+  }
+  unlistResting(scene, index, attachment->switched_off);
+}
+
 }  // namespace
 
 void moveBody(Scene& scene, const std::string& name, const std::string& frame,
               const Eigen::Isometry3d& frame_from_body, const FramesNow& frames) {
   const std::size_t index = requireMovable(scene, name);
   const SceneBody& before = scene.bodies[index];
-  if (before.attachment) {
-    throw Error(whereOf(name), "it is attached to '" + before.attachment->parent + "', which moves it",
-                "detach it first");
-  }
+  requireNotCarried(before);
   if (!frame_from_body.matrix().allFinite()) {
     throw Error(whereOf(name), "the pose is not finite", "give finite numbers");
   }
@@ -163,42 +224,43 @@ void moveBody(Scene& scene, const std::string& name, const std::string& frame,
     throw Error(whereOf(name), "tf does not connect '" + frame + "' and '" + frames.reference + "'",
                 "check the name, or try again when something publishes it");
   }
-  SceneBody& body = scene.bodies.edit(index);
-  if (!frame.empty()) body.frame = frame;
-  body.frame_from_body = frame_from_body;
-  body.carrier = body.serial;
-  carryAlong(scene, index);
+  place(scene, index, frame.empty() ? before.frame : frame, frame_from_body, before.serial);
+}
+
+void placeBody(Scene& scene, const std::string& name, const std::string& frame,
+               const Eigen::Isometry3d& frame_from_body, bool is_moved) {
+  const std::size_t index = requireMovable(scene, name);
+  if (is_moved) requireNotCarried(scene.bodies[index]);
+  if (scene.bodies[index].attachment) {
+    release(scene, index, frame, frame_from_body);
+    return;
+  }
+  place(scene, index, frame, frame_from_body,
+        is_moved ? scene.bodies[index].serial : scene.bodies[index].carrier);
 }
 
 std::vector<std::string> attachBody(Scene& scene, const std::string& name, const std::string& parent_name,
                                     const std::vector<std::string>& may_touch, const FramesNow& frames) {
   const std::size_t index = requireMovable(scene, name);
-  const SceneBody& before = scene.bodies[index];
-  if (before.attachment) {
-    throw Error(whereOf(name), "it is attached to '" + before.attachment->parent + "' already",
-                "detach it first");
-  }
+  requireUnattached(scene.bodies[index]);
   const Parent parent = parentNamed(scene, index, parent_name, frames);
-  const Eigen::Isometry3d frame_from_body = poseIn(parent.frame, before, frames);
-  auto attachment = std::make_shared<Attachment>();
-  attachment->parent = parent_name;
-  attachment->parent_serial = parent.serial;
-  attachment->parent_from_body = parent.frame_from_parent.inverse(Eigen::Isometry) * frame_from_body;
-  attachment->carrier_before = before.carrier;
-  std::vector<std::string> unknown;
-  for (const std::string& text : may_touch) {
-    const std::vector<std::size_t> bodies = findMatchingBodies(scene, text).bodies;
-    if (bodies.empty()) unknown.push_back(text);
-    for (const std::size_t other : bodies) attachment->may_touch.insert(scene.bodies[other].serial);
+  const Eigen::Isometry3d frame_from_body = poseIn(parent.frame, scene.bodies[index], frames);
+  return attach(scene, index, parent_name, parent,
+                parent.frame_from_parent.inverse(Eigen::Isometry) * frame_from_body, may_touch);
+}
+
+std::vector<std::string> attachBodyAt(Scene& scene, const std::string& name, const std::string& parent,
+                                      const std::string& frame, const Eigen::Isometry3d& parent_from_body,
+                                      const std::vector<std::string>& may_touch) {
+  const std::size_t index = requireMovable(scene, name);
+  requireUnattached(scene.bodies[index]);
+  if (!frame.empty()) return attach(scene, index, parent, frameAsParent(frame), parent_from_body, may_touch);
+  const std::optional<std::size_t> found = scene.findBody(parent);
+  if (!found) {
+    throw Error(whereOf(name), "there is no body '" + parent + "', which it was attached to",
+                "attach it to another one: it is where it was before");
   }
-  SceneBody& body = scene.bodies.edit(index);
-  body.frame = parent.frame;
-  body.frame_from_body = frame_from_body;
-  body.carrier = parent.carrier;
-  switchOffTouching(scene, index, *attachment);
-  body.attachment = std::move(attachment);
-  carryAlong(scene, index);
-  return unknown;
+  return attach(scene, index, parent, bodyAsParent(scene, index, *found), parent_from_body, may_touch);
 }
 
 void detachBody(Scene& scene, const std::string& name, const std::string& frame, const FramesNow& frames) {
@@ -208,18 +270,7 @@ void detachBody(Scene& scene, const std::string& name, const std::string& frame,
     throw Error(whereOf(name), "it is not attached", "attach it first, or leave this operation out");
   }
   const std::string& target = frame.empty() ? frames.reference : frame;
-  const Eigen::Isometry3d frame_from_body = poseIn(target, before, frames);
-  const std::shared_ptr<const Attachment> attachment = before.attachment;
-  SceneBody& body = scene.bodies.edit(index);
-  body.frame = target;
-  body.frame_from_body = frame_from_body;
-  body.carrier = attachment->carrier_before;
-  body.attachment = nullptr;
-  carryAlong(scene, index);
-  for (const std::string& pair : attachment->switched_off) {
-    if (const auto place = scene.pairs.find(pair)) scene.pairs.edit(*place).enabled = true;
-  }
-  unlistResting(scene, index, attachment->switched_off);
+  release(scene, index, target, poseIn(target, before, frames));
 }
 
 }  // namespace concave_distance::detail

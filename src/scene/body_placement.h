@@ -27,9 +27,23 @@ void moveBody(Scene& scene, const std::string& name, const std::string& frame,
 std::vector<std::string> attachBody(Scene& scene, const std::string& name, const std::string& parent,
                                     const std::vector<std::string>& may_touch, const FramesNow& frames);
 
+/// Attaches a body with this pose in its parent, wherever it is now, as a journal has it.
+/// @param frame of a parent that is no body; empty: the parent is one
+/// @return as attachBody(). @throws Error for an unknown body or parent, a robot's link, a body that is
+///         attached already and a cycle
+std::vector<std::string> attachBodyAt(Scene& scene, const std::string& name, const std::string& parent,
+                                      const std::string& frame, const Eigen::Isometry3d& parent_from_body,
+                                      const std::vector<std::string>& may_touch);
+
 /// Leaves an attached body where it is at this moment and watches it as before attachBody().
 /// @param frame in which it stays; empty: the reference frame
 /// @throws Error when there is no such body, when it is not attached, and when tf does not connect the frames
 void detachBody(Scene& scene, const std::string& name, const std::string& frame, const FramesNow& frames);
+
+/// Places a body, which tf is not asked about, as a journal has it: like moveBody() or, where it is not
+/// `moved`, like detachBody().
+/// @throws Error when there is no such body, for a robot's link, and for an attached body that is moved
+void placeBody(Scene& scene, const std::string& name, const std::string& frame,
+               const Eigen::Isometry3d& frame_from_body, bool is_moved);
 
 }  // namespace concave_distance::detail

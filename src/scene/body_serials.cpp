@@ -53,7 +53,6 @@ void renumber(Scene& scene, const Serials& serials) {
   }
   if (scene.rules.filtered)
     scene.rules.filtered = std::make_shared<const SerialPairs>(renumbered(serials, *scene.rules.filtered));
-  scene.overlapping = renumbered(serials, scene.overlapping);
 }
 
 }  // namespace concave_distance::detail

@@ -68,7 +68,11 @@ Partners partnersNamed(const Scene& scene, const SceneBody& body, const PairPart
     }
   }
   for (const std::string& name : partners.names) {
-    for (const std::size_t index : detail::matchingBodies(scene, name, "pair_with").bodies) {
+    const std::vector<std::size_t> bodies = partners.may_be_gone
+                                                ? detail::findMatchingBodies(scene, name).bodies
+                                                : detail::matchingBodies(scene, name, "pair_with").bodies;
+    if (bodies.empty()) added.unknown.push_back(name);
+    for (const std::size_t index : bodies) {
       if (!seen.insert(index).second) continue;
       moving.holds(index);
       found.rule.bodies.insert(scene.bodies[index].serial);  // ruleOf() leaves it out while it does not move

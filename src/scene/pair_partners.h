@@ -15,6 +15,7 @@ struct PairPartners {
   std::vector<std::string> names;        ///< empty: every body that can move relative to its frame
   bool none = false;                     ///< no body at all
   std::vector<std::string> may_touch{};  ///< bodies left out; not together with `names`
+  bool may_be_gone = false;              ///< `names` without a body are left out
   /// Returns whether two frames do not move relative to each other, besides those that Scene::rigid joins.
   std::function<bool(const std::string& frame_a, const std::string& frame_b)> is_rigid{};
 };
@@ -22,7 +23,8 @@ struct PairPartners {
 struct AddedPairs {
   std::vector<std::string> names;             ///< of the new pairs, 1000 at most of those by rule
   std::vector<std::string> rigid_neighbours;  ///< bodies of other frames left out as rigidly connected
-  std::vector<std::string> unknown;           ///< names in PairPartners::may_touch without a body
+  std::vector<std::string> unknown;           ///< names of partners, or in may_touch, without a body
+  std::vector<std::string> rigid_frames;      ///< as Partners::rigid_frames
 };
 
 /// The partners of a new body.

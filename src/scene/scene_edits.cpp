@@ -198,8 +198,8 @@ AddedPairs appendBody(Scene& scene, SceneBody body, const PairPartners& partners
   body.added_rule = std::make_shared<const AddedBodyRule>(found.rule);
   for (const std::string& frame : found.rigid_frames) {
     scene.rigid.join(frame, body.frame);
-    scene.joined_by_tf.emplace_back(frame, body.frame);
   }
+  added.rigid_frames = found.rigid_frames;
   for (int copy = 2; isLabel(scene, body.pairLabel()); ++copy)
     body.label = body.name + "_" + std::to_string(copy);
   scene.bodies.push_back(std::move(body));

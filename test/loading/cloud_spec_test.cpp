@@ -90,7 +90,7 @@ TEST_F(CloudSpec, EverySettingIsSavedAndReadAgain) {
   const CloudSettings& settings = *scene.bodies[*scene.findBody("camera")].cloud->settings;
   EXPECT_EQ(settings.voxel_size, 0.125);
   EXPECT_EQ(settings.largest_voxel_count, 77U);
-  const Scene again = load(detail::savedScene(scene, "cell").files.front().text);
+  const Scene again = load(detail::savedScene(scene, "cell").front().text);
   const SceneBody& body = again.bodies[*again.findBody("camera")];
   ASSERT_TRUE(body.cloud);
   EXPECT_TRUE(*body.cloud->settings == settings);

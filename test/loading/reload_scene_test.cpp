@@ -1,5 +1,5 @@
-// A scene that is loaded again while it is edited and tracked: what the files left alone and what edits have
-// made goes on; what the files changed is new.
+// A scene that is loaded again while it is edited and tracked: what the files left alone and what operations
+// have made goes on; what the files changed is new; operations that no longer fit are named.
 #include "scene/reload_scene.h"
 
 #include <gtest/gtest.h>
@@ -10,9 +10,6 @@
 #include "concave_distance/scene/scene_tracker.h"
 #include "scene/apply_operations.h"
 #include "scene/equal_settings.h"
-#include "scene/rule_edits.h"
-#include "scene/scene_edits.h"
-#include "scene/set_warning_distance.h"
 #include "support/scene_fixture.h"
 
 namespace concave_distance::reload_scene_test {
@@ -102,7 +99,7 @@ class ReloadSceneTest : public test::SceneTest {
   ReloadReport reload(const std::string& yaml = kCell, bool drop_edits = false) {
     options.pool = scene.pool;
     ReloadReport report;
-    scene = reloadedScene(scene, load(yaml), drop_edits, kNow, report);
+    scene = reloadedScene(scene, load(yaml), drop_edits, report);
     tracker.setScene(scene, true);
     return report;
   }
@@ -227,7 +224,7 @@ TEST_F(ReloadSceneTest, KeepsWhatIsAttachedToAToolThatWasSwapped) {
   EXPECT_TRUE(watches("crate", "tool")) << "the new one, too";
 }
 
-TEST_F(ReloadSceneTest, LeavesWhereItIsWhatWasAttachedToALinkThatIsGone) {
+TEST_F(ReloadSceneTest, PutsBackAndNamesWhatWasAttachedToALinkThatIsGone) {
   edit({operation(OperationKind::Attach, "part", "tool"), addition("crate", "world", at(9)),
         operation(OperationKind::Attach, "crate", "part")});
   options.descriptions["robot_description"] = armWith(0.0);
@@ -235,9 +232,11 @@ TEST_F(ReloadSceneTest, LeavesWhereItIsWhatWasAttachedToALinkThatIsGone) {
   EXPECT_EQ(report.removed, Names{"tool"});
   ASSERT_EQ(report.dropped.size(), 1U);
   EXPECT_EQ(report.dropped[0],
-            "attachment of 'part' to 'tool', which is gone: it stays where it is, in 'world'");
+            "attach 'part': body 'part': there is no body 'tool', which it was attached to (attach it to "
+            "another one: it is where it was before)");
   EXPECT_FALSE(body("part").attachment);
-  EXPECT_NEAR((body("part").frame_from_body.matrix() - at(3, 3, 3).matrix()).norm(), 0.0, 1e-14);
+  EXPECT_EQ(body("part").frame, "world");
+  EXPECT_EQ(body("part").frame_from_body.translation(), Eigen::Vector3d(3, 3, 3));
   ASSERT_TRUE(body("crate").attachment);
   EXPECT_EQ(body("crate").frame, "world");
   EXPECT_NEAR((body("crate").frame_from_body.matrix() - at(9).matrix()).norm(), 0.0, 1e-14);
@@ -249,7 +248,10 @@ TEST_F(ReloadSceneTest, TakesWhatTheFileChangedAndKeepsWhatEditsChanged) {
   edit({operation(OperationKind::Move, "part"), wider,
         operation(OperationKind::AllowContact, "base", "shelf"),
         operation(OperationKind::AllowContact, "arm", "par*")});
-  setWarningDistance(scene, "hand/*", 0.3, 0.05);
+  SceneOperation warning = operation(OperationKind::SetWarningDistance, "");
+  warning.pair = "hand/*";
+  warning.warning_distance = 0.3;
+  edit({warning});
   std::string changed = kCell;
   changed.replace(changed.find("cutoff: 50"), 10, "cutoff: 40");
   changed.replace(changed.find("[0, 6, 0]"), 9, "[0, 7, 0]");
@@ -283,7 +285,8 @@ TEST_F(ReloadSceneTest, CanDropAllEdits) {
         operation(OperationKind::Attach, "part", "arm")});
   const std::uint64_t serial = body("part").serial;
   const ReloadReport report = reload(kCell, true);
-  EXPECT_EQ(report.dropped, Names{"body 'crate', which a service had added"});
+  EXPECT_EQ(report.dropped, Names{"add 'crate': a service had added it"});
+  EXPECT_TRUE(scene.operations.empty());
   EXPECT_EQ(body("part").serial, serial);
   EXPECT_EQ(body("shelf").margin, 0.0);
   expectAsFresh(kCell);
@@ -300,9 +303,10 @@ TEST_F(ReloadSceneTest, KeepsBodiesRemovedAndGivesWayToNewOnesOfTheSameName) {
   const ReloadReport second = reload(changed);
   EXPECT_EQ(second.added, Names{"crate"});
   ASSERT_EQ(second.dropped.size(), 1U);
-  EXPECT_TRUE(mentions(second.dropped[0], "body 'crate', which a service had added")) << second.dropped[0];
+  EXPECT_TRUE(mentions(second.dropped[0], "add 'crate': name: there is a body 'crate' already"))
+      << second.dropped[0];
   EXPECT_EQ(body("crate").frame, "world");
-  // Twice the same is no edit of the first.
+  // What does not fit is said once.
   EXPECT_TRUE(reload(changed).dropped.empty());
 }
 
@@ -330,17 +334,57 @@ TEST_F(ReloadSceneTest, PairsWhoseBodiesChangePlacesAreRightAfterwards) {
   for (const auto& [name, now] : after) EXPECT_NEAR(now.distance, expected.at(name).distance, 1e-12) << name;
 }
 
-TEST_F(ReloadSceneTest, RefusesMoreBodiesThanAllowed) {
+TEST_F(ReloadSceneTest, LeavesOutAdditionsBeyondTheLimitOfBodies) {
   edit({addition("crate", "hand", at(0))});
-  scene.limits.bodies = options.limits.bodies = 6;
-  ReloadReport report;
-  options.pool = scene.pool;
-  try {
-    reloadedScene(scene, load(kCell), false, kNow, report);
-    FAIL() << "accepted";
-  } catch (const Error& error) {
-    EXPECT_TRUE(mentions(error.what(), "7 bodies with those that services added")) << error.what();
-  }
+  options.limits.bodies = 6;
+  const ReloadReport report = reload();
+  ASSERT_EQ(report.dropped.size(), 1U);
+  EXPECT_TRUE(mentions(report.dropped[0], "add 'crate': scene: it has 6 bodies, the limit"))
+      << report.dropped[0];
+  EXPECT_EQ(scene.bodies.size(), 6U);
+}
+
+TEST_F(ReloadSceneTest, AChangedMeshFileIsReadAnew) {
+  const std::string path = folder.write("part.stl", test::tetrahedronStl());
+  const std::string yaml = kCell + "  # with a mesh\n";
+  std::string cell = yaml;
+  cell.insert(cell.find("pairs:"), "  - {name: cast, frame: world, mesh: part.stl}\n");
+  reload(cell);
+  const double size = body("cast").mesh->diameter();
+  EXPECT_EQ(reload(cell).kept.size(), 7U) << "the file is as it was";
+  std::string larger = test::tetrahedronStl();
+  for (std::size_t at = larger.find("0 0 3"); at != std::string::npos; at = larger.find("0 0 3"))
+    larger.replace(at, 5, "0 0 5");
+  folder.write("part.stl", larger);
+  const ReloadReport report = reload(cell);
+  EXPECT_EQ(report.replaced, Names{"cast"});
+  EXPECT_GT(body("cast").mesh->diameter(), size);
+}
+
+TEST_F(ReloadSceneTest, NamesEachOperationThatNoLongerFits) {
+  SceneOperation wide = operation(OperationKind::SetMargin, "shelf");
+  wide.margin = 1.0;
+  SceneOperation warning = operation(OperationKind::SetWarningDistance, "");
+  warning.pair = "hand/shelf";
+  warning.warning_distance = 45.0;
+  SceneOperation pattern = operation(OperationKind::DisablePairs, "");
+  pattern.pair = "too*/part";
+  edit({wide, warning, pattern, operation(OperationKind::AllowContact, "tool", "shelf"),
+        operation(OperationKind::Move, "part")});
+  options.descriptions["robot_description"] = armWith(0.0);
+  std::string changed = kCell;
+  changed.replace(changed.find("[1, 1, 1]"), 9, "[.1, .1, .1]");
+  changed.replace(changed.find("cutoff: 50"), 10, "cutoff: 40");
+  const Names dropped = reload(changed).dropped;
+  const Names expected = {
+      "set_margin 'shelf'",
+      "set_warning_distance 'hand/shelf': pair 'hand/shelf': warning_distance 45 m is beyond",
+      "disable_pairs 'too*/part': pair: there is no pair 'too*/part'",
+      "allow_contact 'tool': body_a: there is no body 'tool'"};
+  ASSERT_EQ(dropped.size(), expected.size());
+  for (std::size_t i = 0; i < expected.size(); ++i)
+    EXPECT_EQ(dropped[i].rfind(expected[i], 0), 0U) << dropped[i];
+  EXPECT_EQ(body("part").frame_from_body.translation(), Eigen::Vector3d(3, 3, 4)) << "what fits stays";
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <map>
+#include <set>
 #include <sstream>
 
 #include "base/random_engine.h"
@@ -14,9 +15,7 @@
 #include "loading/set_effects.h"
 #include "scene/apply_operations.h"
 #include "scene/equal_settings.h"
-#include "scene/rule_edits.h"
-#include "scene/scene_edits.h"
-#include "scene/set_warning_distance.h"
+#include "scene/journal.h"
 #include "support/body_motions.h"
 #include "support/random_solids.h"
 #include "support/scene_fixture.h"
@@ -111,7 +110,7 @@ class SavedSceneTest : public test::SceneTest {
   Scene reload(const Scene& scene) {
     const std::string path = folder.path() + "/saved" + std::to_string(++saved_) + "/cell.yaml";
     std::filesystem::create_directories(std::filesystem::path(path).parent_path());
-    writeScene(path, savedScene(scene, stemOf(path)).files, false);
+    writeScene(path, savedScene(scene, stemOf(path)), false);
     return loadSceneFile(path, options);
   }
 
@@ -242,8 +241,12 @@ class SavedSceneTest : public test::SceneTest {
     const std::string& pattern = patterns[engine() % patterns.size()];
     try {
       if (engine() % 2 == 0) {
-        setWarningDistance(edited, pattern,
-                           engine() % 3 == 0 ? std::nullopt : std::optional(uniformUnit(engine)), 0.05);
+        SceneOperation warning;
+        warning.kind = OperationKind::SetWarningDistance;
+        warning.pair = pattern;
+        if (engine() % 3 != 0) warning.warning_distance = uniformUnit(engine);
+        warning.warning_hysteresis = 0.05;
+        applyOperation(edited, warning, {});
       } else {
         setEffects(edited, pattern, engine() % 2 == 0 ? "{normal_force: hertz, friction: bristle}" : "none");
       }
@@ -274,15 +277,18 @@ test::Bytes bytesOf(const Scene& scene, const SceneBody& body) {
   std::ostringstream text;
   text << body.name << "|" << body.frame << "|" << body.pairLabel() << "|" << nameOf(scene, body.carrier)
        << "|" << (body.attachment ? body.attachment->parent : "") << "|"
-       << (body.attachment ? nameOf(scene, body.attachment->carrier_before) : "") << "|"
-       << (body.added_rule ? 1 + static_cast<int>(body.added_rule->all) : 0);
+       << (body.attachment ? nameOf(scene, body.attachment->carrier_before) : "");
   for (const char c : text.str()) test::appendAll(bytes, c);
   return bytes;
 }
 
 void expectSamePairs(const Scene& scene, const Scene& loaded) {
-  ASSERT_EQ(scene.pairs.size(), loaded.pairs.size());
-  for (std::size_t i = 0; i < scene.pairs.size(); ++i) EXPECT_EQ(scene.pairs[i].name, loaded.pairs[i].name);
+  const auto listed = [](const Scene& of) {
+    std::set<std::string> names;
+    for (const ScenePair& pair : of.pairs) names.insert(pair.name);
+    return names;
+  };
+  EXPECT_EQ(listed(scene), listed(loaded));
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     for (std::size_t j = i + 1; j < scene.bodies.size(); ++j) {
       const std::string both = scene.bodies[i].name + " and " + scene.bodies[j].name;
@@ -356,18 +362,46 @@ TEST_F(SavedSceneTest, SaysTheSameWhenItIsSavedAgain) {
   Scene scene = start();
   for (int i = 0; i < 40; ++i) edit(scene, engine);
   const Scene once = reload(scene);
-  const auto first = savedScene(once, "cell").files;
-  const auto second = savedScene(reload(once), "cell").files;
+  const auto first = savedScene(once, "cell");
+  const auto second = savedScene(reload(once), "cell");
   ASSERT_EQ(first.size(), second.size());
-  EXPECT_GT(savedScene(scene, "cell").files.size(), 1U) << "with meshes, which are files from then on";
+  EXPECT_GT(savedScene(scene, "cell").size(), 1U) << "with meshes, which are files from then on";
   EXPECT_EQ(first[0].text, second[0].text);
 }
 
-TEST_F(SavedSceneTest, KeepsUrisAndMakesPathsAbsolute) {
-  const std::string text = savedScene(start(), "cell").files.front().text;
-  EXPECT_TRUE(mentions(text, "package://arm_description/part.stl")) << text;
-  EXPECT_TRUE(mentions(text, folder.path() + "/part.stl")) << text;
-  EXPECT_TRUE(mentions(text, "description: robot_description\n"));
+TEST_F(SavedSceneTest, KeepsTheFileAsItWasAndFindsItsMeshesFromElsewhere) {
+  for (const std::string& text :
+       {"# My cell.\n" + kScene, std::string("{bodies: [{name: cast, mesh: part.stl}]}"),
+        std::string("%YAML 1.2\n---\n  bodies:  # indented\n  - {name: cast, mesh: part.stl}"),
+        std::string("bodies: []\n...\n"), std::string("{}")}) {
+    const Scene scene = load(text);
+    const std::string saved = savedScene(scene, "cell").front().text;
+    EXPECT_TRUE(mentions(saved, "\n" + text)) << saved;
+    const Scene loaded = reload(scene);
+    EXPECT_EQ(loaded.file->text,
+              std::string(kSavedSceneMark) + "\n" + text + (text.back() == '\n' ? "" : "\n"));
+    EXPECT_TRUE(loaded.problems.empty()) << loaded.problems.front().message;
+    EXPECT_EQ(test::bodyNames(loaded), test::bodyNames(scene));
+  }
+}
+
+TEST_F(SavedSceneTest, TellsTheOperationsOfTheFileFromThoseSince) {
+  Scene scene = start();
+  RandomEngine engine(3);
+  BodyDescription box;
+  box.primitive = "box";
+  box.dimensions = {1, 1, 1};
+  const SceneOperation add = addition("crate", box, engine, scene);
+  applyOperation(scene, add, {});
+  Scene loaded = reload(scene);
+  EXPECT_TRUE(loaded.operations.empty());
+  ASSERT_EQ(loaded.file->operations.size(), 1U);
+  SceneOperation remove;
+  remove.kind = OperationKind::Remove;
+  remove.body = "crate";
+  applyOperation(loaded, remove, {});
+  EXPECT_EQ(loaded.operations.size(), 1U);
+  EXPECT_TRUE(wholeJournal(loaded).empty()) << "one makes the other void";
 }
 
 TEST_F(SavedSceneTest, OfOneRobotWithoutASceneFileLoadsTheSame) {
@@ -379,8 +413,7 @@ TEST_F(SavedSceneTest, OfOneRobotWithoutASceneFileLoadsTheSame) {
   options.descriptions["robot_description"] = urdf;
   options.default_settings.tracker.cold.population_size = 40;
   const Scene scene = loadRobotScene(urdf, "robot_description", options);
-  ASSERT_FALSE(scene.overlapping.empty()) << "hand and twin are at one place";
-  options.default_settings = {};  // nothing comes from the node's parameters
+  ASSERT_TRUE(mentions(scene.file->text, "disable:\n")) << "hand and twin are at one place";
   const Scene loaded = reload(scene);
   ASSERT_EQ(test::bodyNames(scene), test::bodyNames(loaded));
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
@@ -396,29 +429,113 @@ TEST_F(SavedSceneTest, OfOneRobotWithoutASceneFileLoadsTheSame) {
   EXPECT_EQ(loaded.defaults.pairs.tracker.cutoff, *scene.automatic_cutoff);
 }
 
-TEST_F(SavedSceneTest, WritesFewEntriesForManyClassesWithOneRule) {
-  std::string bodies;
-  for (int i = 0; i < 60; ++i) bodies += "  - {name: b" + std::to_string(i) + ", sphere: {radius: 0.1}}\n";
-  Scene scene = load("bodies:\n" + bodies + "  - {name: t, sphere: {radius: 0.1}}\ngroups: {g: [t]}\n");
-  for (int i = 0; i < 60; ++i) {
-    setPairEnabled(scene, {"", "b" + std::to_string(i), "g"}, false, scene.defaults.pairs);
-  }
-  EXPECT_GT(scene.rules.classes, 30U);
-  const std::string text = savedScene(scene, "cell").files.front().text;
-  EXPECT_LT(text.size(), 12000U) << text;
-  expectSamePairs(scene, load(text));
-}
-
 TEST_F(SavedSceneTest, CannotSayWhatItDoesNotKnow) {
   Scene scene = start();
-  scene.bodies.edit(*scene.findBody("table")).origin = nullptr;
-  try {
-    savedScene(scene, "cell");
-    FAIL() << "accepted";
-  } catch (const Error& error) {
-    EXPECT_TRUE(mentions(error.what(), "body 'table': where its shape came from is not known"))
-        << error.what();
+  RandomEngine engine(3);
+  BodyDescription box;
+  box.primitive = "box";
+  box.dimensions = {1, 1, 1};
+  SceneOperation add = addition("crate", box, engine, scene);
+  add.added->origin = nullptr;
+  applyOperation(scene, add, {});
+  const auto refused = [](const Scene& unknown) -> std::string {
+    try {
+      savedScene(unknown, "cell");
+      return "accepted";
+    } catch (const Error& error) {
+      return error.what();
+    }
+  };
+  EXPECT_TRUE(mentions(refused(scene), "body 'crate': where its shape came from is not known"));
+  EXPECT_TRUE(mentions(refused(Scene()), "scene: it was not loaded from a file"));
+}
+
+TEST_F(SavedSceneTest, OperationsOfFilesRefuseNonsense) {
+  const auto second = [&](const std::string& text) {
+    return refusal("bodies:\n  - {name: t, box: {size: [1, 1, 1]}}\n---\n" + text + "\n");
+  };
+  const auto one = [&](const std::string& fields) { return second("operations:\n  - {" + fields + "}"); };
+  EXPECT_EQ(one("operation: set_margin, body: t, margin: 0.1"), "accepted");
+  EXPECT_EQ(second("{folder: /tmp, operations: []}"), "accepted");
+  const std::vector<std::pair<std::string, std::string>> expected = {
+      {second("bodies: []"), "scene.yaml:4: 'operations' is missing"},
+      {second("{operations: [], bodies: []}"),
+       "scene.yaml:4, bodies: key 'bodies' is not known (allowed: folder, operations)"},
+      {second("operations: all"),
+       "scene.yaml:4, operations: the value is 'all' (allowed: a list of operations)"},
+      {second("- a"), "a map with operations"},
+      {second(""), "a map with operations"},
+      {second("operations: [{"), "scene.yaml:5: no YAML"},
+      {second("operations: []\n---\noperations: []"), "2 YAML documents or more"},
+      {second("operations: [3]"), "operations[0]: the value is '3' (allowed: a map with operation"},
+      {one("body: t"), "scene.yaml:5, operations[0]: 'operation' is missing"},
+      {one("operation: explode, body: t"),
+       "scene.yaml:5, operations[0].operation: the value is 'explode' (allowed: add, move"},
+      {one("operation: move, frame_id: w"), "'body' is missing (name the body)"},
+      {one("operation: move, body: t"), "'frame_id' is missing"},
+      {one("operation: move, body: t, frame_id: 'a b'"), "operations[0].frame_id"},
+      {one("operation: move, body: t, frame_id: w, pose: {xyz: [1, 2]}"), "pose.xyz"},
+      {one("operation: move, body: t, frame_id: w, margin: 1"),
+       "key 'margin' is not known (allowed: operation, body, frame_id, pose)"},
+      {one("operation: set_margin, body: t, margin: -1"), "operations[0].margin"},
+      {one("operation: add, body: s, frame_id: w"), "'shapes' is missing"},
+      {one("operation: add, body: s, frame_id: w, shapes: []"), "a list of at least one shape"},
+      {one("operation: add, body: s, frame_id: w, shapes: [{cube: 1}]"), "no geometry"},
+      {one("operation: add, body: s, frame_id: w, shapes: [{sphere: {radius: 1}}], pair_with: t"),
+       "a list of texts"},
+      {one("operation: attach, body: t"), "'other' is missing"},
+      {one("operation: allow_contact, body: t"), "'other' is missing (name the other side)"},
+      {one("operation: disable_pairs, body: t"), "'pair' is missing"},
+      {one("operation: set_effects, pair: '*', effects: {}"), "operations[0].effects"},
+      {one("operation: set_effects, pair: '*', effects: '{'"), "operations[0].effects:1: no YAML"},
+      {one("operation: set_warning_distance, pair: '*', warning_distance: near"), "warning_distance"},
+  };
+  for (const auto& [message, part] : expected)
+    EXPECT_TRUE(mentions(message, part)) << part << " in: " << message;
+}
+
+TEST_F(SavedSceneTest, OperationsThatDoNotFitAreProblemsAndTheRestIsServed) {
+  const Scene scene = load(
+      "bodies:\n  - {name: t, frame: w, box: {size: [1, 1, 1]}}\n  - {name: u, frame: w, box: {size: [1, 1, "
+      "1]}}\n---\n"
+      "operations:\n"
+      "  - {operation: add, body: s, frame_id: w, shapes: [{mesh: none.stl}]}\n"
+      "  - {operation: move, body: s, frame_id: w}\n"
+      "  - {operation: add, body: t, frame_id: w, shapes: [{sphere: {radius: 1}}]}\n"
+      "  - {operation: remove, body: nobody}\n"
+      "  - {operation: attach, body: t, other: tool}\n"
+      "  - {operation: set_margin, body: t, margin: 100}\n"
+      "  - {operation: set_effects, pair: t/u, effects: '{friction: bristle}'}\n"
+      "  - {operation: set_warning_distance, pair: a/b, warning_distance: 1}\n"
+      "  - {operation: add, body: ball, frame_id: v, shapes: [{sphere: {radius: 1}}], pair_with: [t, gone], "
+      "margin: 0.5}\n"
+      "  - {operation: detach, body: u, frame_id: v, pose: {xyz: [1, 2, 3]}}\n"
+      "  - {operation: set_margin, body: 'v*', margin: 0.1}\n");
+  const std::vector<std::pair<std::string, std::string>> expected = {
+      {"scene.yaml:6, operations[0]", "add 's' is left out: body 's': "},
+      {"scene.yaml:8, operations[2]",
+       "add 't' is left out: name: there is a body 't' already (remove_body it first)"},
+      {"scene.yaml:9, operations[3]", "remove 'nobody' is left out: body: there is no body 'nobody'"},
+      {"scene.yaml:10, operations[4]",
+       "attach 't' is left out: body 't': there is no body 'tool', which it was attached to"},
+      {"scene.yaml:11, operations[5]", "set_margin 't' is left out: body 't'"},
+      {"scene.yaml:12, operations[6]", "set_effects 't/u' is left out: "},
+      {"scene.yaml:13, operations[7]",
+       "set_warning_distance 'a/b' is left out: pair: there is no pair 'a/b'"},
+  };
+  ASSERT_EQ(scene.problems.size(), expected.size());
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    EXPECT_EQ(scene.problems[i].where, expected[i].first);
+    EXPECT_EQ(scene.problems[i].message.rfind(expected[i].second, 0), 0U) << scene.problems[i].message;
   }
+  EXPECT_TRUE(test::hasNote(scene, "scene.yaml:14, operations[8]: add 'ball' names what is no body: gone"));
+  EXPECT_TRUE(test::hasNote(scene, "scene.yaml:16, operations[10]: set_margin 'v*' is left out: body: 'v*'"));
+  EXPECT_EQ(test::bodyNames(scene), (Names{"t", "u", "ball"}));
+  EXPECT_EQ(scene.bodies[1].frame_from_body.translation(), Eigen::Vector3d(1, 2, 3));
+  EXPECT_EQ(scene.file->operations.size(), 2U) << "what does not fit is not saved again";
+  options.strict = true;
+  EXPECT_TRUE(mentions(refusal("bodies: []\n---\noperations: [{operation: remove, body: t}]"),
+                       "remove 't' is left out"));
 }
 
 TEST_F(SavedSceneTest, KeysOfSavedScenesRefuseNonsense) {
@@ -429,8 +546,7 @@ TEST_F(SavedSceneTest, KeysOfSavedScenesRefuseNonsense) {
         more + "}\ngroups: {g: [t]}\n");
   };
   const auto box = [&](const std::string& more) { return of_body("box: {size: [1, 1, 1]}, " + more); };
-  EXPECT_EQ(box("placed: {xyz: [1, 2, 3]}, moved: true, label: one/two"), "accepted");
-  EXPECT_EQ(box("attached: {to: t, touch_links: [g], switched_off: [a/b]}, added: {only: [t]}"), "accepted");
+  EXPECT_EQ(box("placed: {xyz: [1, 2, 3]}, label: one/two"), "accepted");
   const std::vector<std::pair<std::string, std::string>> expected = {
       {of_body("shapes: []"), "a list of at least one shape"},
       {of_body("shapes: [{scale: 2}]"), "no geometry"},
@@ -440,22 +556,10 @@ TEST_F(SavedSceneTest, KeysOfSavedScenesRefuseNonsense) {
       {box("placed: {rotation: [1, 0, 0, 0, 1, 0, 0, 0, -1]}"), "a rotation without mirroring"},
       {box("placed: {rotation: [1, 0, 0, 0, 1, 0, 0, 0, 1.01]}"), "a rotation without mirroring"},
       {box("placed: {rotation: [1, 0, 0, 0, 1, 0, 0, 0, 1], rpy: [0, 0, 0]}"), "both 'rotation' and 'rpy'"},
-      {box("moved: perhaps"), "moved"},
       {box("label: 'a b'"), "letters, digits, _ and single /"},
       {refusal("bodies:\n  - {name: t, label: x, box: {size: [1, 1, 1]}}\n"
                "  - {name: s, label: x, box: {size: [1, 1, 1]}}\n"),
        "the label 'x' is taken"},
-      {box("added: {}"), "neither 'all_but' nor 'only'"},
-      {box("added: {only: [t], all_but: [t]}"), "both 'all_but' and 'only'"},
-      {box("added: {only: [nobody]}"), "'nobody' is not a body"},
-      {box("attached: {touch_links: [t]}"), "attached"},
-      {box("attached: {to: s}"), "a cycle"},
-      {box("attached: {to: g}"), "'g' is a group"},
-      {box("attached: {to: nobody}"), "write frame: nobody"},
-      {refusal("bodies:\n  - {name: t, frame: w, box: {size: [1, 1, 1]}, attached: {to: s}}\n"
-               "  - {name: s, frame: w, box: {size: [1, 1, 1]}, attached: {to: t}}\n"),
-       "a cycle"},
-      {refusal("rigid_frames: [[a, 'b c']]\n"), "rigid_frames[0][1]"},
       {refusal("robots:\n  - {description: robot_description, links: {wrist: {margin: 1}}}\n"),
        "'wrist' is no link of robot 'arm' that becomes a body"},
       {refusal("robots:\n  - {description: robot_description, links: {arm: {margin: -1}}}\n"), "margin"},
@@ -484,16 +588,6 @@ TEST_F(SavedSceneTest, EntriesOfSavedPairsRefuseNonsense) {
   };
   for (const auto& [message, part] : expected)
     EXPECT_TRUE(mentions(message, part)) << part << " in: " << message;
-}
-
-TEST_F(SavedSceneTest, ABodyWhoseParentIsNotServedStaysWhereItIs) {
-  const Scene scene = load(
-      "bodies:\n  - {name: t, frame: w, mesh: none.stl}\n"
-      "  - {name: s, frame: w, box: {size: [1, 1, 1]}, attached: {to: t}}\n");
-  ASSERT_EQ(scene.bodies.size(), 1U);
-  EXPECT_FALSE(scene.bodies[0].attachment);
-  ASSERT_EQ(scene.problems.size(), 2U);
-  EXPECT_TRUE(mentions(scene.problems[1].message, "not attached to 't', which is not served"));
 }
 
 }  // namespace

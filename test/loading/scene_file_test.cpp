@@ -68,7 +68,7 @@ TEST_F(SceneFile, EmptySceneIsAScene) {
 TEST_F(SceneFile, WhatIsNoMapIsRefused) {
   expectRefused("", "scene.yaml:1", "the value is empty", "a map with robots");
   expectRefused("- 1\n", "scene.yaml:1", "a list of 1", "a map with robots");
-  expectRefused("bodies: []\n---\nbodies: []\n", "scene.yaml", "2 YAML documents", "one is expected");
+  expectRefused("bodies: []\n---\nbodies: []\n", "scene.yaml:3", "'operations' is missing", "give a list");
   expectRefused("? [a]\n: 1\n", "scene.yaml:1", "a key that is no text", "write key: value");
 }
 

@@ -23,7 +23,7 @@ inline constexpr std::size_t kDefaultMetricMemoryLimit = 512'000'000;
 /// Progress of loading a scene, read and stopped from another thread.
 class LoadProgress {
  public:
-  void begin(std::size_t bodies) { bodies_ = bodies; }
+  void begin(std::size_t bodies) { bodies_ += bodies; }
   void finishBody() { ++prepared_; }
   /// Number of bodies to prepare; 0 before it is known.
   std::size_t bodies() const { return bodies_; }
@@ -38,6 +38,8 @@ class LoadProgress {
   std::atomic<std::size_t> bodies_{0};
   std::atomic<std::size_t> prepared_{0};
 };
+
+enum class GeometrySource : std::uint8_t { Collision, Visual };
 
 struct SceneLoadOptions {
   PackageLocator package_locator = packagePathFromEnvironment;

@@ -72,7 +72,7 @@ struct SceneBody {
   std::uint64_t serial = newBodySerial();
   std::uint32_t pair_class = 0;                     ///< row of Scene::rules
   std::shared_ptr<const AddedBodyRule> added_rule;  ///< nullptr: it came with the scene
-  std::shared_ptr<const BodyOrigin> origin;         ///< nullptr: not known, it cannot be saved
+  std::shared_ptr<const BodyOrigin> origin;         ///< nullptr: not known
   std::shared_ptr<const CloudState> cloud;          ///< nullptr: it is not made of what a sensor sees
 
   const std::string& pairLabel() const { return label.empty() ? name : label; }
@@ -157,15 +157,9 @@ struct Scene {
   SceneDefaults defaults;
   /// Names of bodies by group: of the scene file, robots and SRDFs. Not all of them need to be in `bodies`.
   std::map<std::string, std::vector<std::string>> groups;
-  std::set<std::string> groups_of_robots;  ///< those of `groups` that URDFs and SRDFs give
-  /// Its robots as the scene file names them; nullptr: none.
-  std::shared_ptr<const std::vector<SceneRobot>> named_robots;
-  /// Frames that edits found to be joined by static transforms, besides those of the robots.
-  std::vector<std::pair<std::string, std::string>> joined_by_tf;
-  /// Pairs of SceneBody::serial among PairRules::filtered that were left out because they always overlap.
-  std::vector<std::pair<std::uint64_t, std::uint64_t>> overlapping;
-  /// The scene as it was loaded, before all edits, its bodies without meshes; nullptr: it was not loaded.
-  std::shared_ptr<const Scene> loaded;
+  std::set<std::string> groups_of_robots;        ///< those of `groups` that URDFs and SRDFs give
+  std::shared_ptr<const SceneText> file;         ///< nullptr: it was not loaded
+  SceneJournal operations;                       ///< since it was loaded
   std::optional<double> automatic_cutoff;        ///< m, if SceneLoadOptions requests one
   std::optional<SimulationSettings> simulation;  ///< the section `simulation`, where there is one
   std::shared_ptr<BodyPool> pool;                ///< of its bodies, used for later ones too

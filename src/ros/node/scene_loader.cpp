@@ -24,6 +24,7 @@ Scene emptyScene(const SceneLoadOptions& options) {
   scene.pool = options.pool ? options.pool : std::make_shared<BodyPool>(options.metric_memory_limit);
   scene.limits = options.limits;
   scene.defaults.pairs = options.default_settings;
+  scene.file = std::make_shared<const SceneText>(SceneText{"bodies: []\n", "", {}});
   return scene;
 }
 

@@ -51,6 +51,7 @@ std::size_t MoveReceiver::apply(const SceneMoves& moves) {
         std::to_string(moves.bodies.size()) + " bodies and " + std::to_string(moves.poses.size()) + " poses",
         "send one pose for each body");
   }
+  detail::requireBatchSize(moves.bodies.size());
   const std::string& given = moves.header.frame_id;
   const std::string frame = given.empty() ? given : requireFrameName(given, "header.frame_id");
   std::vector<detail::SceneOperation> operations(moves.bodies.size());

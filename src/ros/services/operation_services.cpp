@@ -228,8 +228,13 @@ bool OperationServices::addBody(AddBody::Request& request, AddBody::Response& re
 bool OperationServices::removeBody(RemoveBody::Request& request, RemoveBody::Response& response) {
   return respond(response, [&] {
     requireScene(keeper_);
+    detail::SceneOperation operation;
+    operation.kind = OperationKind::Remove;
+    operation.body = request.name;
+    operation.allow_robot_link = request.allow_robot_link != 0;
     keeper_.edit([&](Scene& scene) {
-      response.pairs = concave_distance::removeBody(scene, request.name, request.allow_robot_link != 0);
+      response.pairs = pairNamesOf(scene, requireBody(scene, request.name));
+      applyOperation(scene, operation, {});
     });
   });
 }

@@ -1,6 +1,5 @@
 #include "scene_services.h"
 
-#include <optional>
 #include <utility>
 
 #include "concave_distance/search/prepare_search.h"
@@ -8,11 +7,13 @@
 #include "respond.h"
 #include "ros/messages/conversions.h"
 #include "ros/tf/frame_report.h"
+#include "scene/apply_operations.h"
 #include "scene/scene_edits.h"
-#include "scene/set_warning_distance.h"
 
 namespace concave_distance {
 namespace {
+
+using detail::OperationKind;
 
 // Pairs besides the named ones that list_bodies has.
 constexpr std::size_t kMostPairsListed = 1000;
@@ -73,10 +74,17 @@ bool SceneServices::listBodies(ListBodies::Request& /*request*/, ListBodies::Res
 bool SceneServices::setPairEnabled(SetPairEnabled::Request& request, SetPairEnabled::Response& response) {
   return respond(response, [&] {
     requireScene(keeper_);
-    keeper_.edit([&](Scene& scene) {
-      response.pairs = concave_distance::setPairEnabled(scene, {request.pair, request.body_a, request.body_b},
-                                                        request.enabled != 0, scene.defaults.pairs);
-    });
+    const bool enabled = request.enabled != 0;
+    detail::SceneOperation operation;
+    if (request.pair.empty()) {
+      operation.kind = enabled ? OperationKind::DisallowContact : OperationKind::AllowContact;
+      operation.body = request.body_a;
+      operation.other = request.body_b;
+    } else {
+      operation.kind = enabled ? OperationKind::EnablePairs : OperationKind::DisablePairs;
+      operation.pair = request.pair;
+    }
+    keeper_.edit([&](Scene& scene) { response.pairs = applyOperation(scene, operation, {}); });
     response.pair = response.pairs.front();
   });
 }
@@ -94,12 +102,12 @@ bool SceneServices::setWarningDistance(SetWarningDistance::Request& request,
                                        SetWarningDistance::Response& response) {
   return respond(response, [&] {
     requireScene(keeper_);
-    const auto distance =
-        request.remove != 0 ? std::nullopt : std::optional<double>(request.warning_distance);
-    keeper_.editSettings([&](Scene& scene) {
-      response.pairs =
-          concave_distance::setWarningDistance(scene, request.pair, distance, request.warning_hysteresis);
-    });
+    detail::SceneOperation operation;
+    operation.kind = OperationKind::SetWarningDistance;
+    operation.pair = request.pair;
+    if (request.remove == 0) operation.warning_distance = request.warning_distance;
+    operation.warning_hysteresis = request.warning_hysteresis;
+    keeper_.editSettings([&](Scene& scene) { response.pairs = applyOperation(scene, operation, {}); });
   });
 }
 

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "loading/saved_scene.h"
+#include "loading/saved_operations.h"
 #include "ros/messages/conversions.h"
 
 namespace concave_distance {

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "base/number_text.h"
 #include "concave_distance/loading/load_scene.h"
 #include "kinematics/wording.h"
 #include "loading/saved_scene.h"
@@ -45,13 +44,11 @@ bool StateServices::getScene(GetScene::Request& request, GetScene::Response& res
     const bool with_meshes = request.with_meshes != 0;
     response.revision = served->revision;
     fillState(*served->scene, framesNow(transforms_.current(), reference_frame_), with_meshes, response);
-    detail::SavedScene saved = detail::savedScene(*served->scene, "scene", with_meshes);
-    for (detail::SavedFile& file : saved.files) {
+    for (detail::SavedFile& file : detail::savedScene(*served->scene, "scene", with_meshes)) {
       SceneFile& message = response.files.emplace_back();
       message.name = std::move(file.name);
       message.text = std::move(file.text);
     }
-    response.message = joinedText(saved.remarks, "; ");
   });
 }
 
@@ -61,10 +58,9 @@ bool StateServices::saveScene(SaveScene::Request& request, SaveScene::Response& 
     requireScene(keeper_);
     const std::string path = detail::pathBelow(save_folder_, request.path);
     const std::shared_ptr<const ServedScene> served = keeper_.served();
-    const detail::SavedScene saved = detail::savedScene(*served->scene, detail::stemOf(path));
-    response.files = detail::writeScene(path, saved.files, request.overwrite != 0);
+    response.files = detail::writeScene(path, detail::savedScene(*served->scene, detail::stemOf(path)),
+                                        request.overwrite != 0);
     response.revision = served->revision;
-    response.message = joinedText(saved.remarks, "; ");
     ROS_INFO_STREAM("Saved the scene as " << path);
   });
 }
@@ -99,15 +95,15 @@ bool StateServices::reload(Reload::Request& request, Reload::Response& response)
     Scene fresh = source_.load(served->scene->pool);
     requireNoNewProblem(fresh, *served->scene, response);
     const Scene loaded = fresh;  // shares all with it
-    const detail::FramesNow frames = framesNow(transforms_.current(), reference_frame_);
     detail::ReloadReport report;
     response.revision = keeper_.editSettings([&](Scene& scene) {
-      scene = detail::reloadedScene(scene, std::move(fresh), request.drop_edits != 0, frames, report);
+      scene = detail::reloadedScene(scene, std::move(fresh), request.drop_edits != 0, report);
     });
     fillReport(std::move(report), response);
     source_.on_served(loaded);
-    ROS_INFO("Reloaded the scene: %zu bodies go on, %zu are new, changed or gone, %zu edits were dropped.",
-             response.kept.size(), countOf(response), response.dropped.size());
+    ROS_INFO(
+        "Reloaded the scene: %zu bodies go on, %zu are new, changed or gone, %zu operations were dropped.",
+        response.kept.size(), countOf(response), response.dropped.size());
     for (const std::string& dropped : response.dropped) ROS_WARN_STREAM("Reload has dropped: " << dropped);
   });
 }
