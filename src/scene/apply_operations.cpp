@@ -189,7 +189,7 @@ bool isNamed(const std::unordered_set<std::string>& names, const SceneOperation&
   const auto is_one = [&](const std::string& name) { return names.count(name) != 0; };
   const std::vector<std::string>& partners = operation.partners.names;
   return is_one(operation.body) || is_one(operation.other) ||
-         std::any_of(partners.begin(), partners.end(), is_one);
+         (!operation.is_recorded && std::any_of(partners.begin(), partners.end(), is_one));
 }
 
 }  // namespace

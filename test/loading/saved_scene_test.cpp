@@ -492,6 +492,9 @@ TEST_F(SavedSceneTest, OperationsOfFilesRefuseNonsense) {
   };
   for (const auto& [message, part] : expected)
     EXPECT_TRUE(mentions(message, part)) << part << " in: " << message;
+  std::string huge = "operations: [";
+  for (int i = 0; i < 1'000'000; ++i) huge += "0,";
+  EXPECT_TRUE(mentions(second(huge + "]"), "scene.yaml: more than 1000000 values (leave out"));
 }
 
 TEST_F(SavedSceneTest, OperationsThatDoNotFitAreProblemsAndTheRestIsServed) {
@@ -507,7 +510,8 @@ TEST_F(SavedSceneTest, OperationsThatDoNotFitAreProblemsAndTheRestIsServed) {
       "  - {operation: set_margin, body: t, margin: 100}\n"
       "  - {operation: set_effects, pair: t/u, effects: '{friction: bristle}'}\n"
       "  - {operation: set_warning_distance, pair: a/b, warning_distance: 1}\n"
-      "  - {operation: add, body: ball, frame_id: v, shapes: [{sphere: {radius: 1}}], pair_with: [t, gone], "
+      "  - {operation: add, body: ball, frame_id: v, shapes: [{sphere: {radius: 1}}], pair_with: [t, s, "
+      "gone], "
       "margin: 0.5}\n"
       "  - {operation: detach, body: u, frame_id: v, pose: {xyz: [1, 2, 3]}}\n"
       "  - {operation: set_margin, body: 'v*', margin: 0.1}\n");
@@ -528,7 +532,8 @@ TEST_F(SavedSceneTest, OperationsThatDoNotFitAreProblemsAndTheRestIsServed) {
     EXPECT_EQ(scene.problems[i].where, expected[i].first);
     EXPECT_EQ(scene.problems[i].message.rfind(expected[i].second, 0), 0U) << scene.problems[i].message;
   }
-  EXPECT_TRUE(test::hasNote(scene, "scene.yaml:14, operations[8]: add 'ball' names what is no body: gone"));
+  EXPECT_TRUE(
+      test::hasNote(scene, "scene.yaml:14, operations[8]: add 'ball' names what is no body: s, gone"));
   EXPECT_TRUE(test::hasNote(scene, "scene.yaml:16, operations[10]: set_margin 'v*' is left out: body: 'v*'"));
   EXPECT_EQ(test::bodyNames(scene), (Names{"t", "u", "ball"}));
   EXPECT_EQ(scene.bodies[1].frame_from_body.translation(), Eigen::Vector3d(1, 2, 3));
