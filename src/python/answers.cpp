@@ -28,10 +28,14 @@ py::object nichesOf(const py::object& self, py::ssize_t row) {
 }  // namespace
 
 void Answers::append(const PairSolution& solution) {
+  const auto& meeting = solution.meeting_triangles;
   rows.push_back({solution.distance, solution.lower_bound, solution.signed_distance,
                   tripleOf(solution.point_a_in_a), tripleOf(solution.point_b_in_a),
                   tripleOf(solution.normal_in_a), solution.closing_speed, solution.solve_seconds,
-                  static_cast<std::uint8_t>(solution.status), solution.niches_complete, solution.niches_cut});
+                  meeting ? static_cast<std::int64_t>(meeting->a.value) : -1,
+                  meeting ? static_cast<std::int64_t>(meeting->b.value) : -1,
+                  static_cast<std::uint8_t>(solution.accuracy), static_cast<std::uint8_t>(solution.status),
+                  solution.niches_complete, solution.niches_cut});
   for (const TrackedNiche& niche : solution.niches) {
     const SignedPlace& place = niche.signed_place;
     niches.push_back({niche.id,
@@ -59,20 +63,23 @@ void Answers::append(const PairSolution& solution) {
   niche_offsets.push_back(static_cast<std::int64_t>(niches.size()));
 }
 
-SceneAnswers::SceneAnswers(const SceneTracker::Pairs& tracked) {
-  for (const auto& pair : tracked) {
+SceneAnswers::SceneAnswers(const SceneTracker& tracker, bool due_alone) : beyond(tracker.others().beyond) {
+  for (const auto& pair : tracker.pairs()) {
+    if (due_alone && !pair->demand.due) continue;
     append(pair->solution);
     pairs.push_back(pair->origin->name);
     bodies.push_back(static_cast<std::int64_t>(pair->origin->body_a));
     bodies.push_back(static_cast<std::int64_t>(pair->origin->body_b));
     states.push_back(static_cast<std::uint8_t>(pair->state));
     bounds.push_back(pair->box_bound.value_or(kNotComputed));
+    warnings.push_back(pair->warning.state() == WarningState::Warning ? 1 : 0);
   }
 }
 
-void bindAnswers(py::module_& module) {
+void bindAnswers(py::module& module) {
   PYBIND11_NUMPY_DTYPE(AnswerRow, distance, lower_bound, signed_distance, point_a, point_b, normal,
-                       closing_speed, solve_seconds, status, niches_complete, niches_cut);
+                       closing_speed, solve_seconds, triangle_a, triangle_b, accuracy, status,
+                       niches_complete, niches_cut);
   PYBIND11_NUMPY_DTYPE(NicheRow, id, distance, signed_distance, point_a, point_b, normal, closing_speed,
                        extent, prominence, signed_point_a, signed_point_b, signed_pivot, signed_gradient,
                        signed_since_cycle, birth_cycle, signed_state, kind, outward, origin, visible,
@@ -88,7 +95,10 @@ void bindAnswers(py::module_& module) {
           "signed_distance "
           "(with margins; NaN where the bare bodies overlap), point_a (3), point_b (3), normal (3; unit, "
           "from A to "
-          "B), closing_speed (m/s, positive when approaching), solve_seconds, status (Status), "
+          "B), closing_speed (m/s, positive when approaching), solve_seconds, triangle_a, triangle_b (that "
+          "meet, "
+          "where surfaces do, else -1), accuracy (0 nodes, 1 refined, 2 "
+          "certified: reached), status (Status), "
           "niches_complete "
           "(proven), niches_cut (more were known than are listed).")
       .def_property_readonly(
@@ -122,7 +132,13 @@ void bindAnswers(py::module_& module) {
       .def_property_readonly(
           "bounds",
           [](const py::object& self) { return viewOf(self.cast<const SceneAnswers*>()->bounds, self); },
-          "(n,) metres: proven distances of pairs that are BEYOND_CUTOFF, NaN elsewhere.");
+          "(n,) metres: proven distances of pairs that are BEYOND_CUTOFF, NaN elsewhere.")
+      .def_property_readonly(
+          "warnings",
+          [](const py::object& self) { return viewOf(self.cast<const SceneAnswers*>()->warnings, self); },
+          "(n,) uint8: 1 below the warning distance, with its hysteresis.")
+      .def_readonly("beyond", &SceneAnswers::beyond,
+                    "Number of pairs that have no row because they were never near, or no longer are.");
 }
 
 }  // namespace concave_distance::python

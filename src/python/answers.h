@@ -20,7 +20,10 @@ struct AnswerRow {
   Triple normal;
   double closing_speed;
   double solve_seconds;
-  std::uint8_t status;  ///< SolveStatus
+  std::int64_t triangle_a;  ///< where surfaces meet, a triangle of A that meets triangle_b of B; else -1
+  std::int64_t triangle_b;
+  std::uint8_t accuracy;  ///< AccuracyLevel that was reached
+  std::uint8_t status;    ///< SolveStatus
   bool niches_complete;
   bool niches_cut;
 };
@@ -60,12 +63,15 @@ struct Answers {
 };
 
 struct SceneAnswers : Answers {
-  explicit SceneAnswers(const SceneTracker::Pairs& tracked);
+  /// @param due_alone pairs that were not due in the last cycle have no row
+  SceneAnswers(const SceneTracker& tracker, bool due_alone);
 
-  std::vector<std::string> pairs;    ///< names
-  std::vector<std::int64_t> bodies;  ///< A and B of each pair, in Scene.body_names
-  std::vector<std::uint8_t> states;  ///< PairState
-  std::vector<double> bounds;        ///< metres, proven by boxes where the pair is beyond its cutoff
+  std::vector<std::string> pairs;      ///< names
+  std::vector<std::int64_t> bodies;    ///< A and B of each pair, in Scene.body_names
+  std::vector<std::uint8_t> states;    ///< PairState
+  std::vector<double> bounds;          ///< metres, proven by boxes where the pair is beyond its cutoff
+  std::vector<std::uint8_t> warnings;  ///< 1: below the warning distance
+  std::uint64_t beyond;                ///< pairs by rule without a row, being beyond their cutoff
 };
 
 }  // namespace concave_distance::python

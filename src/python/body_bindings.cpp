@@ -134,7 +134,7 @@ py::array_t<std::uint32_t> trianglesOf(const PythonBody& body) {
   return array;
 }
 
-void bindReport(py::module_& module) {
+void bindReport(py::module& module) {
   const auto count = [](auto member) {
     return [member](const RepairReport& report) { return report.*member; };
   };
@@ -162,7 +162,7 @@ void bindReport(py::module_& module) {
 
 }  // namespace
 
-void bindBodies(py::module_& module) {
+void bindBodies(py::module& module) {
   bindReport(module);
   py::class_<PythonBody>(
       module, "BodyMesh",
@@ -180,14 +180,14 @@ void bindBodies(py::module_& module) {
           "shells", [](const PythonBody& body) { return body.repair.shells; },
           "Number of connected surfaces.")
       .def_readonly("repair", &PythonBody::repair, "RepairReport of loading it.");
-  module.def("load_body", &loadBody, py::arg("path"), py::arg("scale") = 1.0, py::kw_only(),
+  module.def("load_body", &loadBody, py::arg("path"), py::arg("scale") = 1.0,
              py::arg("max_edge_length") = py::none(), py::call_guard<Unlocked>(),
              "Reads a mesh file (.stl, .obj, .ply, .dae), repairs it and makes it ready for queries.\n\n"
              "scale: factor on the file's coordinates, 0.001 for millimetres\n"
              "max_edge_length: of the search's grid, metres; None: automatic\n"
              "Raises Error naming the file.");
   module.def("make_body", &makeBody, py::arg("vertices"), py::arg("triangles"), py::arg("name") = "body",
-             py::kw_only(), py::arg("weld_tolerance") = kSinglePrecisionWeld, py::arg("orient") = true,
+             py::arg("weld_tolerance") = kSinglePrecisionWeld, py::arg("orient") = true,
              "Repairs triangles and makes a body of them.\n\n"
              "vertices: (n, 3) metres; triangles: (m, 3) places in vertices\n"
              "weld_tolerance: border vertices this near become one, a share of the bounding box's diagonal\n"
@@ -200,7 +200,7 @@ void bindBodies(py::module_& module) {
       [](double radius, const std::string& name, std::optional<double> chord_error) {
         return roundBody(RoundKind::Sphere, radius, 0.0, chord_error, name);
       },
-      py::arg("radius"), py::arg("name") = "sphere", py::kw_only(), py::arg("chord_error") = py::none(),
+      py::arg("radius"), py::arg("name") = "sphere", py::arg("chord_error") = py::none(),
       "A sphere around the origin, exact. radius: metres; chord_error: of the mesh that is searched and "
       "drawn, "
       "metres, None: 1 % of the radius.");
@@ -209,16 +209,14 @@ void bindBodies(py::module_& module) {
       [](double radius, double length, const std::string& name, std::optional<double> chord_error) {
         return roundBody(RoundKind::Cylinder, radius, length, chord_error, name);
       },
-      py::arg("radius"), py::arg("length"), py::arg("name") = "cylinder", py::kw_only(),
-      py::arg("chord_error") = py::none(),
+      py::arg("radius"), py::arg("length"), py::arg("name") = "cylinder", py::arg("chord_error") = py::none(),
       "A cylinder along z around the origin, exact. Metres; chord_error as of make_sphere.");
   module.def(
       "make_capsule",
       [](double radius, double length, const std::string& name, std::optional<double> chord_error) {
         return roundBody(RoundKind::Capsule, radius, length, chord_error, name);
       },
-      py::arg("radius"), py::arg("length"), py::arg("name") = "capsule", py::kw_only(),
-      py::arg("chord_error") = py::none(),
+      py::arg("radius"), py::arg("length"), py::arg("name") = "capsule", py::arg("chord_error") = py::none(),
       "A capsule along z around the origin, exact; length is that of the cylindrical part. Metres; "
       "chord_error as "
       "of make_sphere.");

@@ -147,7 +147,7 @@ constexpr const char* kOptionsDoc =
 
 }  // namespace
 
-void bindClearance(py::module_& module) {
+void bindClearance(py::module& module) {
   const ClearanceParameters defaults;
   // The arguments that both functions have, made into what find() takes.
   const auto options = [](double tolerance, std::optional<double> threshold,
@@ -183,7 +183,7 @@ void bindClearance(py::module_& module) {
             scene, motion, {start, roots, bodies},
             options(tolerance, threshold, time_budget, sample_limit, each_pair, niches, threads, progress));
       },
-      py::arg("scene"), py::arg("positions"), py::arg("times") = py::none(), py::kw_only(),
+      py::arg("scene"), py::arg("positions"), py::arg("times") = py::none(),
       py::arg("velocities") = py::none(), py::arg("accelerations") = py::none(),
       py::arg("joints") = py::none(), py::arg("start") = py::none(), py::arg("roots") = py::none(),
       py::arg("bodies") = py::none(), py::arg("tolerance") = defaults.tolerance,
@@ -210,7 +210,7 @@ void bindClearance(py::module_& module) {
             scene, poseMotion(body, poses, times), {start, roots, bodies},
             options(tolerance, threshold, time_budget, sample_limit, each_pair, niches, threads, progress));
       },
-      py::arg("scene"), py::arg("body"), py::arg("poses"), py::arg("times") = py::none(), py::kw_only(),
+      py::arg("scene"), py::arg("body"), py::arg("poses"), py::arg("times") = py::none(),
       py::arg("start") = py::none(), py::arg("roots") = py::none(), py::arg("bodies") = py::none(),
       py::arg("tolerance") = defaults.tolerance, py::arg("threshold") = py::none(),
       py::arg("time_budget") = py::none(), py::arg("sample_limit") = defaults.sample_limit,

@@ -52,7 +52,7 @@ const PythonClearance& clearanceIn(const py::object& self) {
 
 }  // namespace
 
-void bindClearanceResult(py::module_& module) {
+void bindClearanceResult(py::module& module) {
   using Found = const PythonClearance&;
   const auto of = [](auto member) { return [member](Found found) { return found.result.*member; }; };
   PYBIND11_NUMPY_DTYPE(ClearanceRow, body_a, body_b, lower_bound, distance, time);
@@ -63,7 +63,7 @@ void bindClearanceResult(py::module_& module) {
       .def_property_readonly(
           "status",
           [](Found found) {
-            return py::module_::import("concave_distance")
+            return py::module::import("concave_distance")
                 .attr("ClearanceStatus")(static_cast<int>(found.result.status));
           },
           "ClearanceStatus.")

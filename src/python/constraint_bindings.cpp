@@ -183,7 +183,7 @@ py::array_t<double> matrixOf(const std::vector<double>& numbers, std::size_t row
   return py::array_t<double>(shape, numbers.data(), self);
 }
 
-void bindConstraints(py::module_& module) {
+void bindConstraints(py::module& module) {
   PYBIND11_NUMPY_DTYPE(SlotRow, state, is_overlapping, body_a, body_b, niche_id, age, value, lower_bound,
                        normal, point_a, point_b, point_a_in_frame, point_b_in_frame, drift, drift_a, drift_b);
   PYBIND11_NUMPY_DTYPE(UnlistedRow, reason, body_a, body_b, lower_bound, drift);
@@ -231,7 +231,7 @@ void bindConstraints(py::module_& module) {
 
 }  // namespace
 
-void bindRows(py::module_& module) {
+void bindRows(py::module& module) {
   bindConstraints(module);
   py::class_<PythonRows>(module, "ConstraintRows",
                          "Rows for controllers: for every niche within a distance, of pairs that a joint can "
@@ -240,7 +240,7 @@ void bindRows(py::module_& module) {
                          "It may be used from any "
                          "thread; calls wait for each other.")
       .def(py::init<ScenePointer, double, std::uint32_t, double>(), py::arg("scene").none(false),
-           py::kw_only(), py::arg("distance") = ConstraintSettings().distance,
+           py::arg("distance") = ConstraintSettings().distance,
            py::arg("capacity") = ConstraintSettings().capacity, py::arg("tilt") = ConstraintSettings().tilt,
            "distance: metres; niches within it have rows\n"
            "capacity: number of slots; with more rows than that the farthest have none\n"

@@ -13,19 +13,19 @@ namespace {
 namespace py = pybind11;
 
 template <typename Enum>
-void bindEnum(py::module_& module, const char* name, const char* doc,
+void bindEnum(py::module& module, const char* name, const char* doc,
               const std::vector<std::pair<const char*, Enum>>& values) {
   py::list names;
   for (const auto& [word, value] : values) names.append(py::make_tuple(word, static_cast<int>(value)));
   py::object made =
-      py::module_::import("enum").attr("IntEnum")(name, names, py::arg("module") = "concave_distance");
+      py::module::import("enum").attr("IntEnum")(name, names, py::arg("module") = "concave_distance");
   made.attr("__doc__") = doc;
   module.attr(name) = made;
 }
 
 }  // namespace
 
-void bindEnums(py::module_& module) {
+void bindEnums(py::module& module) {
   bindEnum<SolveStatus>(
       module, "Status",
       "What became of a solve: column `status`.\n\n"

@@ -27,7 +27,7 @@ void translate(std::exception_ptr thrown) {
 
 }  // namespace
 
-void bindError(py::module_& module) {
+void bindError(py::module& module) {
   error_class = PyErr_NewExceptionWithDoc(
       "concave_distance.Error",
       "The one exception of this package, raised by loading and for wrong arguments; a solve raises none.\n\n"

@@ -29,7 +29,7 @@ constexpr const char* kWhere = "PairTracker";
 
 TrackerParameters parametersFor(const PythonBody& a, const PythonBody& b, TrackerParameters parameters,
                                 const py::kwargs& keywords) {
-  setParameters(keywords, Keywords::OfPair, kWhere, parameters);
+  setParameters(keywords, kWhere, parameters);
   requireMargin("margin_a", parameters.margin_a, *a.mesh);
   requireMargin("margin_b", parameters.margin_b, *b.mesh);
   return parameters;
@@ -135,12 +135,13 @@ Answers solveEachOf(const PythonBody& a, const PythonBody& b, const py::object& 
 
 }  // namespace
 
-void bindPairs(py::module_& module) {
-  module.def("parameters", &describeParameters,
-             "The keywords of PairTracker: a dict for each, with name, unit, default, allowed, description, "
-             "is_expert.");
+void bindPairs(py::module& module) {
+  module.def(
+      "parameters", &describeParameters, py::arg("of_scene") = false,
+      "The keywords of PairTracker, or those of load_scene and load_robot that set defaults of pairs: a "
+      "dict for each, with name, unit, default, allowed, description, is_expert.");
   module.def("solve_each", &solveEachOf, py::arg("body_a"), py::arg("body_b"), py::arg("poses"),
-             py::kw_only(), py::arg("name") = "pair", py::arg("threads") = 0,
+             py::arg("name") = "pair", py::arg("threads") = 0,
              "Solves at each pose alone, in parallel: the answers of PairTracker.solve, for any number of "
              "threads.\n\n"
              "poses: of B in A's frame, (n, 4, 4) matrices or (n, 7) with x, y, z, qx, qy, qz, qw, metres\n"
@@ -150,7 +151,7 @@ void bindPairs(py::module_& module) {
       module, "PairTracker",
       "A pair of bodies over time. It may be used from any thread; calls wait for each other.")
       .def(py::init<const PythonBody&, const PythonBody&, const std::string&, const py::kwargs&>(),
-           py::arg("body_a"), py::arg("body_b"), py::kw_only(), py::arg("name") = "pair",
+           py::arg("body_a"), py::arg("body_b"), py::arg("name") = "pair",
            "name: keys the random streams, with the seed\n"
            "Further keywords: parameters(). None means no limit, or automatic.\n"
            "Raises Error naming the keyword, the value seen and what is allowed.")

@@ -10,6 +10,7 @@
 #include "base/parameter.h"
 #include "base/short_text.h"
 #include "concave_distance/base/error.h"
+#include "scene/pair_parameters.h"
 #include "text.h"
 #include "tracking/tracker_parameter_table.h"
 
@@ -18,14 +19,14 @@ namespace {
 
 namespace py = pybind11;
 
-const ParameterTable<TrackerParameters>& parametersOf(Keywords allowed) {
-  static const ParameterTable<TrackerParameters> of_a_pair =
+const ParameterTable<TrackerParameters>& parametersOfPair() {
+  static const ParameterTable<TrackerParameters> table =
       joined<TrackerParameters>({trackerParameters(),
                                  marginParameters(),
                                  {flag<TrackerParameters>(
                                      "niches_wanted", [](auto& t) -> auto& { return t.niches_wanted; },
                                      "false: only the distance is computed")}});
-  return allowed == Keywords::OfPair ? of_a_pair : trackerParameters();
+  return table;
 }
 
 [[noreturn]] void refuse(const ParameterInfo& info, py::handle value, const std::string& where) {
@@ -55,8 +56,7 @@ ParameterValue valueOf(const ParameterInfo& info, py::handle value, const std::s
     return *text;
   }
   const bool is_flag = info.type == ParameterType::Flag;
-  if (PyBool_Check(value.ptr()) != 0 ||
-      py::str(py::type::of(value).attr("__name__")).equal(py::str("bool_"))) {
+  if (PyBool_Check(value.ptr()) != 0 || py::str(value.get_type().attr("__name__")).equal(py::str("bool_"))) {
     if (!is_flag) refuse(info, value, where);
     return value.cast<bool>();
   }
@@ -80,34 +80,26 @@ py::object toPythonValue(const ParameterInfo& info, const ParameterValue& value)
   return py::str(text);
 }
 
-}  // namespace
-
-void setParameters(const py::kwargs& keywords, Keywords allowed, const std::string& where,
-                   TrackerParameters& parameters) {
-  const ParameterTable<TrackerParameters>& table = parametersOf(allowed);
+template <typename Owner>
+void setAll(const py::kwargs& keywords, const ParameterTable<Owner>& table, const std::string& where,
+            Owner& owner) {
   for (const auto& [key, value] : keywords) {
     const std::string name = toUtf8(key).value_or("?");
-    const Parameter<TrackerParameters>* parameter = findParameter(table, name);
+    const Parameter<Owner>* parameter = findParameter(table, name);
     if (parameter == nullptr) {
       std::vector<std::string> names;
       for (const auto& known : table) names.push_back(known.info.name);
       throw Error(where, "there is no parameter '" + name + "'", "there are: " + joinedText(names, ", "));
     }
-    parameter->assign(parameters, valueOf(parameter->info, value, where), where + ".");
+    parameter->assign(owner, valueOf(parameter->info, value, where), where + ".");
   }
 }
 
-py::dict valuesOf(const TrackerParameters& parameters) {
-  py::dict values;
-  for (const auto& parameter : parametersOf(Keywords::OfPair))
-    values[py::str(parameter.info.name)] = toPythonValue(parameter.info, parameter.get(parameters));
-  return values;
-}
-
-py::list describeParameters() {
-  const TrackerParameters defaults;
+template <typename Owner>
+py::list describeAll(const ParameterTable<Owner>& table) {
+  const Owner defaults;
   py::list descriptions;
-  for (const auto& parameter : parametersOf(Keywords::OfPair)) {
+  for (const auto& parameter : table) {
     const ParameterInfo& info = parameter.info;
     py::dict one;
     one["name"] = info.name;
@@ -119,6 +111,27 @@ py::list describeParameters() {
     descriptions.append(one);
   }
   return descriptions;
+}
+
+}  // namespace
+
+void setParameters(const py::kwargs& keywords, const std::string& where, TrackerParameters& parameters) {
+  setAll(keywords, parametersOfPair(), where, parameters);
+}
+
+void setParameters(const py::kwargs& keywords, const std::string& where, PairSettings& settings) {
+  setAll(keywords, pairParameters(), where, settings);
+}
+
+py::dict valuesOf(const TrackerParameters& parameters) {
+  py::dict values;
+  for (const auto& parameter : parametersOfPair())
+    values[py::str(parameter.info.name)] = toPythonValue(parameter.info, parameter.get(parameters));
+  return values;
+}
+
+py::list describeParameters(bool of_scene) {
+  return of_scene ? describeAll(pairParameters()) : describeAll(parametersOfPair());
 }
 
 }  // namespace concave_distance::python

@@ -1,5 +1,6 @@
 #include "python_scene_tracker.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <string>
@@ -7,6 +8,7 @@
 
 #include "base/number_text.h"
 #include "concave_distance/base/error.h"
+#include "scene/name_pattern.h"
 #include "signal_check.h"
 #include "tracking/rigid_pose.h"
 #include "unlocked.h"
@@ -34,24 +36,72 @@ PairDemand demandOf(bool niches) {
   return demand;
 }
 
-}  // namespace
-
-PythonSceneTracker::PythonSceneTracker(ScenePointer scene, std::uint32_t threads)
-    : scene_(std::move(scene)), threads_(threads), tracker_(SceneTrackerOptions{threads, &stop_, false}) {
-  const Unlocked unlocked;
-  tracker_.setScene(scene_->scene);
+std::vector<bool> readMoved(const py::object& moved, std::size_t bodies) {
+  if (moved.is_none()) return {};
+  const auto given = py::array_t<bool, py::array::c_style | py::array::forcecast>::ensure(moved);
+  if (!given || given.ndim() != 1 || static_cast<std::size_t>(given.size()) != bodies)
+    throw Error("moved", "it is no array of " + std::to_string(bodies) + " truth values",
+                "give one for each of Scene.body_names");
+  return std::vector<bool>(given.data(), given.data() + given.size());
 }
 
-SceneAnswers PythonSceneTracker::update(const py::object& poses, double time, bool niches) {
+Scene withoutBudgets(Scene scene) {
+  const auto change = [](PairSettings& settings) {
+    settings.tracker.time_budget = std::numeric_limits<double>::infinity();
+  };
+  for (std::size_t i = 0; i < scene.pairs.size(); ++i) change(scene.pairs.edit(i).settings);
+  for (PairSettings& settings : scene.rules.settings) change(settings);
+  change(scene.defaults.pairs);
+  return scene;
+}
+
+}  // namespace
+
+PythonSceneTracker::PythonSceneTracker(ScenePointer scene, std::uint32_t threads,
+                                       std::vector<std::string> pairs, bool time_budgets)
+    : scene_(std::move(scene)),
+      threads_(threads),
+      patterns_(std::move(pairs)),
+      tracker_(SceneTrackerOptions{threads, &stop_, false}) {
+  for (const std::string& pattern : patterns_) detail::requirePatternLength(pattern, "pairs");
+  const Unlocked unlocked;
+  tracker_.setScene(time_budgets ? scene_->scene : withoutBudgets(scene_->scene));
+}
+
+bool PythonSceneTracker::isWanted(const std::string& pair) {
+  if (patterns_.empty()) return true;
+  const auto [place, is_new] = wanted_.try_emplace(pair, false);
+  if (is_new) {
+    place->second = std::any_of(patterns_.begin(), patterns_.end(), [&](const std::string& pattern) {
+      return pattern == pair || detail::matchesPattern(pattern, pair);
+    });
+  }
+  return place->second;
+}
+
+SceneAnswers PythonSceneTracker::update(const py::object& poses, double time, bool niches,
+                                        const py::object& moved) {
   const GivenPoses given = readPoses(poses, "poses", 1);
   requireBodies(given, 1, scene_->scene.bodies.size());
+  const std::vector<bool> due = readMoved(moved, scene_->scene.bodies.size());
   Cycle next{bodyPoses(given.poses.data()), time};
   const Unlocked unlocked;
   const std::lock_guard<std::mutex> turn(mutex_);
   requireLater(time);
   cycle_ = std::move(next);
-  runCycle([&] { tracker_.update(cycle_.world_from_body, time, demandOf(niches)); });
-  return SceneAnswers(tracker_.pairs());
+  // A pair that waits for one of its poses goes on later.
+  const auto is_due = [&](std::size_t a, std::size_t b) {
+    const auto is_ready = [&](std::size_t body) { return due[body] || cycle_.world_from_body[body]; };
+    return (due[a] || due[b]) && is_ready(a) && is_ready(b);
+  };
+  const auto demand_of = [&](std::size_t, const TrackedPair& pair) {
+    if (!isWanted(pair.origin->name)) return PairDemand();
+    PairDemand demand = demandOf(niches);
+    demand.due = due.empty() || is_due(pair.origin->body_a, pair.origin->body_b);
+    return demand;
+  };
+  runCycle([&] { tracker_.update(cycle_.world_from_body, time, demand_of); });
+  return {tracker_, !due.empty()};
 }
 
 std::vector<NearestRow> PythonSceneTracker::nearest(const py::object& poses) {

@@ -8,6 +8,8 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "answers.h"
@@ -27,9 +29,13 @@ class PythonSceneTracker {
     double time = -std::numeric_limits<double>::infinity();         ///< seconds
   };
 
-  PythonSceneTracker(ScenePointer scene, std::uint32_t threads);
+  /// @param pairs names or patterns of those that are solved; empty: all
+  /// @param time_budgets false: those of the scene's pairs do not count
+  PythonSceneTracker(ScenePointer scene, std::uint32_t threads, std::vector<std::string> pairs,
+                     bool time_budgets);
 
-  SceneAnswers update(const pybind11::object& poses, double time, bool niches);
+  /// @param moved one truth value for each body: only pairs of these are solved; None: all
+  SceneAnswers update(const pybind11::object& poses, double time, bool niches, const pybind11::object& moved);
   /// The nearest pair at each of many states, beside what is tracked.
   std::vector<NearestRow> nearest(const pybind11::object& poses);
   void restart();
@@ -43,6 +49,7 @@ class PythonSceneTracker {
   }
 
  private:
+  bool isWanted(const std::string& pair);
   void requireLater(double time) const;
   /// Lets signals end a cycle that may be long: a first one, and one after a long one. Another thread for
   /// each short one would cost more than it.
@@ -54,6 +61,8 @@ class PythonSceneTracker {
   std::mutex mutex_;
   std::atomic<bool> stop_ = false;
   const std::uint32_t threads_;
+  const std::vector<std::string> patterns_;
+  std::unordered_map<std::string, bool> wanted_;  ///< by pair, where there are patterns
   SceneTracker tracker_;
   std::unique_ptr<SceneTracker> query_tracker_;  ///< of nearest(); nullptr before the first call
   double query_time_ = 0.0;

@@ -50,17 +50,8 @@ SceneLoadOptions loadOptions(const Texts& package_folders, const Texts& mesh_fol
   if (!package_folders.empty()) options.package_locator = packagesBelow(package_folders);
   options.mesh_search_path = mesh_folders;
   options.strict = strict;
-  setParameters(keywords, Keywords::OfScene, where, options.default_settings.tracker);
+  setParameters(keywords, where, options.default_settings);
   return options;
-}
-
-ScenePointer loadSceneOf(const std::string& path, const Texts& package_folders, const Texts& mesh_folders,
-                         bool strict, const std::map<std::string, std::string>& descriptions,
-                         const py::kwargs& keywords) {
-  SceneLoadOptions options = loadOptions(package_folders, mesh_folders, strict, "load_scene", keywords);
-  options.descriptions = descriptions;
-  const Unlocked unlocked;
-  return std::make_shared<PythonScene>(loadSceneFile(path, options));
 }
 
 GeometrySource geometryOf(const std::string& name) {
@@ -69,13 +60,24 @@ GeometrySource geometryOf(const std::string& name) {
   throw Error("geometry", "the value is '" + name + "'", "allowed: collision, visual");
 }
 
+ScenePointer loadSceneOf(const std::string& path, const Texts& package_folders, const Texts& mesh_folders,
+                         bool strict, const std::map<std::string, std::string>& descriptions,
+                         const std::string& geometry, const py::kwargs& keywords) {
+  SceneLoadOptions options = loadOptions(package_folders, mesh_folders, strict, "load_scene", keywords);
+  options.descriptions = descriptions;
+  options.geometry = geometryOf(geometry);
+  const Unlocked unlocked;
+  return std::make_shared<PythonScene>(loadSceneFile(path, options));
+}
+
 ScenePointer loadRobotOf(const std::string& urdf, const std::optional<std::string>& srdf,
                          const Texts& package_folders, const Texts& mesh_folders, bool strict,
-                         const std::string& geometry, bool skip_overlapping_pairs,
+                         const std::string& geometry, bool skip_overlapping_pairs, bool automatic_cutoff,
                          const py::kwargs& keywords) {
   SceneLoadOptions options = loadOptions(package_folders, mesh_folders, strict, "load_robot", keywords);
   options.geometry = geometryOf(geometry);
   options.skip_overlapping_pairs = skip_overlapping_pairs;
+  options.automatic_cutoff = automatic_cutoff;
   options.mesh_search_path.push_back(urdf);
   const Unlocked unlocked;
   if (srdf) options.descriptions["robot_description_semantic"] = readText(*srdf);
@@ -86,6 +88,23 @@ Texts robotNames(const PythonScene& scene) {
   Texts names;
   for (const auto& robot : scene.joints->robots()) names.push_back(robot->name());
   return names;
+}
+
+Texts bodyFrames(const PythonScene& scene) {
+  Texts frames;
+  for (const SceneBody& body : scene.scene.bodies) frames.push_back(body.frame);
+  return frames;
+}
+
+py::array_t<double> posesInFrames(const PythonScene& scene) {
+  py::array_t<double> poses(
+      {static_cast<py::ssize_t>(scene.scene.bodies.size()), py::ssize_t{4}, py::ssize_t{4}});
+  double* at = poses.mutable_data();
+  for (const SceneBody& body : scene.scene.bodies) {
+    writeMatrix(body.frame_from_body, at);
+    at += 16;
+  }
+  return poses;
 }
 
 Texts bodyNames(const PythonScene& scene) {
@@ -137,33 +156,40 @@ constexpr const char* kLoadingDoc =
     "Further keywords: defaults of the pairs, as parameters() without margins and niches_wanted.\n"
     "Raises Error naming file, line and key.";
 
-void bindLoading(py::module_& module) {
-  module.def(
-      "load_scene", &loadSceneOf, py::arg("path"), py::kw_only(), py::arg("package_folders") = Texts(),
-      py::arg("mesh_folders") = Texts(), py::arg("strict") = false,
-      py::arg("descriptions") = std::map<std::string, std::string>(),
-      (std::string("Loads a scene file.\n\ndescriptions: URDF texts by the names that the file has\n") +
-       kLoadingDoc)
-          .c_str());
-  module.def("load_robot", &loadRobotOf, py::arg("urdf"), py::arg("srdf") = py::none(), py::kw_only(),
+void bindLoading(py::module& module) {
+  module.def("load_scene", &loadSceneOf, py::arg("path"), py::arg("package_folders") = Texts(),
+             py::arg("mesh_folders") = Texts(), py::arg("strict") = false,
+             py::arg("descriptions") = std::map<std::string, std::string>(),
+             py::arg("geometry") = "collision",
+             (std::string("Loads a scene file.\n\ndescriptions: URDF texts by the names that the file has\n"
+                          "geometry: of robots for which the file says nothing, 'collision' or 'visual'\n") +
+              kLoadingDoc)
+                 .c_str());
+  module.def("descriptions_of_scene", &descriptionsOfSceneFile, py::arg("path"),
+             "Names of the robots' descriptions that a scene file takes from parameters. Raises Error.");
+  module.def("load_robot", &loadRobotOf, py::arg("urdf"), py::arg("srdf") = py::none(),
              py::arg("package_folders") = Texts(), py::arg("mesh_folders") = Texts(),
              py::arg("strict") = false, py::arg("geometry") = "collision",
-             py::arg("skip_overlapping_pairs") = false,
+             py::arg("skip_overlapping_pairs") = false, py::arg("automatic_cutoff") = false,
              (std::string("Loads a robot: every link a body, every two links a pair but adjacent ones.\n\n"
                           "urdf: path of the file; srdf: of one that disables pairs\n"
                           "geometry: which of the URDF's, 'collision' or 'visual'\n"
                           "skip_overlapping_pairs: leaves out links that overlap in every pose tried, else "
-                          "Scene.warnings names them\n") +
+                          "Scene.warnings names them\n"
+                          "automatic_cutoff: a fifth of the robot's diagonal, as the node has it\n") +
               kLoadingDoc)
                  .c_str());
 }
 
 }  // namespace
 
-void bindScenes(py::module_& module) {
+void bindScenes(py::module& module) {
   bindLoading(module);
   py::class_<PythonScene, ScenePointer>(module, "Scene", "Bodies, pairs and robots; immutable.")
       .def_property_readonly("body_names", &bodyNames)
+      .def_property_readonly("body_frames", &bodyFrames, "The tf frame that each body is fixed to.")
+      .def_property_readonly("poses_in_frames", &posesInFrames,
+                             "(b, 4, 4): where the bodies are in their frames.")
       .def_property_readonly("problems", &problemsOf,
                              "A list of (where, message): what could not be loaded; the rest is served.")
       .def_property_readonly("warnings",

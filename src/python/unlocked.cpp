@@ -46,7 +46,7 @@ void sleepWhereInterpreterEnds() {
 }
 
 void watchEndOfInterpreter() {
-  pybind11::module_::import("atexit").attr("register")(pybind11::cpp_function(&end));
+  pybind11::module::import("atexit").attr("register")(pybind11::cpp_function(&end));
 }
 
 }  // namespace concave_distance::python

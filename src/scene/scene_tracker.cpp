@@ -134,9 +134,14 @@ void SceneTracker::takePoses(const std::vector<std::optional<Eigen::Isometry3d>>
 
 CycleCounts SceneTracker::update(const std::vector<std::optional<Eigen::Isometry3d>>& world_from_body,
                                  double time, const PairDemand& demand, WorkLimit::Clock::time_point end) {
-  takePoses(world_from_body, time);
   return update(
-      poses_, [&demand](std::size_t, const TrackedPair&) { return demand; }, end);
+      world_from_body, time, [&demand](std::size_t, const TrackedPair&) { return demand; }, end);
+}
+
+CycleCounts SceneTracker::update(const std::vector<std::optional<Eigen::Isometry3d>>& world_from_body,
+                                 double time, const DemandOf& demand_of, WorkLimit::Clock::time_point end) {
+  takePoses(world_from_body, time);
+  return update(poses_, demand_of, end);
 }
 
 CycleCounts SceneTracker::update(const BodyPoses& poses, const DemandOf& demand_of,

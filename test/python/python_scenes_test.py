@@ -63,6 +63,38 @@ class Scenes(unittest.TestCase):
         self.assertGreater(answers.bounds[0], 1.0)
         self.assertLessEqual(answers.bounds[0], 4.5)
 
+    def test_pairs_of_bodies_that_moved_are_solved(self):
+        scene = cd.load_scene(self.write("scene.yaml", SCENE), strict=True)
+        self.assertEqual(scene.body_frames, ["near", "far"])
+        np.testing.assert_array_equal(scene.poses_in_frames, np.tile(np.eye(4), (2, 1, 1)))
+        tracker = cd.SceneTracker(scene, threads=1)
+        poses = np.array([[0.0, 0, 0, 0, 0, 0, 1], [2.0, 0, 0, 0, 0, 0, 1]])
+        self.assertEqual(tracker.update(poses, 0.0, moved=[True, False]).pairs, ["spheres"])
+        poses[1, 0] = 1.9
+        self.assertEqual(tracker.update(poses, 0.5, moved=[False, False]).pairs, [])
+        answers = tracker.update(poses, 1.0, moved=[False, True])
+        self.assertAlmostEqual(answers.rows["closing_speed"][0], 0.1)
+        self.assertEqual(answers.rows["accuracy"][0], 2)
+        self.assertEqual((answers.rows["triangle_a"][0], answers.warnings[0], answers.beyond), (-1, 0, 0))
+        poses[0] = np.nan
+        self.assertEqual(tracker.update(poses, 2.0, moved=[False, True]).pairs, [], "it waits for the other pose")
+        self.assertEqual(tracker.update(poses, 3.0, moved=[True, True]).states[0], cd.PairState.NOT_LOCATED)
+        with self.assertRaises(cd.Error) as caught:
+            tracker.update(poses, 4.0, moved=[True])
+        self.assertEqual(caught.exception.where, "moved")
+
+    def test_pairs_that_are_named_are_solved_without_budgets(self):
+        scene = cd.load_scene(self.write("scene.yaml", "defaults: {time_budget: 1e-9}\n" + SCENE), warning_distance=2.0)
+        poses = [[0.0, 0, 0, 0, 0, 0, 1], [2.0, 0, 0, 0, 0, 0, 1]]
+        answers = cd.SceneTracker(scene, pairs=["sph*"], time_budgets=False).update(poses, 0.0)
+        self.assertEqual((answers.rows["status"][0], answers.warnings[0]), (cd.Status.OK, 1))
+        answers = cd.SceneTracker(scene, pairs=["other"]).update(poses, 0.0)
+        self.assertEqual(answers.states[0], cd.PairState.NOT_WATCHED)
+
+    def test_names_of_descriptions(self):
+        path = self.write("robots.yaml", "robots:\n  - description: one\n  - {description: two, semantic_description: three, name: r}\n")
+        self.assertEqual(cd.descriptions_of_scene(path), ["one", "two", "three"])
+
     def test_joint_positions(self):
         robot = cd.load_robot(self.write("robot.urdf", SLIDE), strict=True)
         self.assertEqual(robot.position_names, ["slide"])

@@ -108,6 +108,10 @@ class SceneTracker {
                      const PairDemand& demand = {true, true, true, false},
                      WorkLimit::Clock::time_point end = kNoCycleEnd);
 
+  /// The same with a demand of its own for each pair.
+  CycleCounts update(const std::vector<std::optional<Eigen::Isometry3d>>& world_from_body, double time,
+                     const DemandOf& demand_of, WorkLimit::Clock::time_point end = kNoCycleEnd);
+
   /// One cycle of the listed pairs alone, where poses of bodies are not known: those by rule have none.
   /// @param demand one per listed pair, in their order. A pair that is not watched costs nothing and
   /// starts cold when it is watched again; one that is watched but not due keeps its state. What belongs to a

@@ -25,6 +25,7 @@ __all__ = [
     "SlotState",
     "Status",
     "UnlistedReason",
+    "descriptions_of_scene",
     "find_clearance",
     "find_clearance_of_body",
     "load_body",
