@@ -1,7 +1,7 @@
 # What is installed, in components (cmake --install build --component library):
 #   library   headers, concave_distance_core and concave_distance_loading, what find_package and pkg-config need
 #   tools     clearance_query, distance_query, mesh_tool, simulate, programs of the thesis where they are built, and the robots and scenes they are tried with
-#   node      (with ROS) the node, nodelet, distance_bag, messages, launch files
+#   node      (with ROS) the node, nodelet, distance_bag (with the Python package), messages, launch files
 # Each brings the licence. Files of the exported targets are for the devel space (or build tree) too.
 set(concave_distance_config_destination ${CONCAVE_DISTANCE_SHARE_DESTINATION}/cmake)
 

@@ -4,7 +4,7 @@
 # Needs root, debootstrap, Ubuntu's and Debian's archives, and hours. All is in CONCAVE_DISTANCE_NOETIC, by default in the
 # user's cache: `root` is a minimal Ubuntu 20.04 with GCC 9.3, CMake 3.16, Eigen 3.3.7, assimp 5.0, TBB 2020.1, Python 3.8
 # and Ubuntu's own ROS packages, which are older than those of ROS Noetic. What Ubuntu lacks comes from Debian's packages:
-# headers of CLI11 and diagnostic_updater, pybind11 2.6 and, for the tests, RapidCheck and FCL 0.6.
+# headers of CLI11 and diagnostic_updater and, for the tests, RapidCheck and FCL 0.6.
 set -euo pipefail
 # shellcheck source=scripts/common.sh
 . "$(dirname "${BASH_SOURCE[0]}")/common.sh"
@@ -77,7 +77,7 @@ install_packages() {
   local wanted=() package
   while read -r package; do
     case "$package" in
-      libfcl-dev | pybind11-dev) ;;  # of Debian
+      libfcl-dev) ;;  # of Debian
       *) if inside apt-cache show "$package" >/dev/null 2>&1; then wanted+=("$package"); else say "Ubuntu has no $package"; fi ;;
     esac
   done <<<"$wanted_now"
@@ -93,7 +93,7 @@ if [ "$wanted_now" != "$(cat "$folder/complete" 2>/dev/null)" ]; then
   inside apt-get -q update
   install_packages
   from_debian bookworm libcli11-dev librapidcheck-dev
-  from_debian bullseye libdiagnostic-updater-dev pybind11-dev libfcl-dev libfcl0.6
+  from_debian bullseye libdiagnostic-updater-dev libfcl-dev libfcl0.6
   printf '%s\n' "$wanted_now" >"$folder/complete"
 fi
 

@@ -16,7 +16,7 @@ set -euo pipefail
     libconsole-bridge-dev libpugixml-dev libtinyxml2-dev libxxhash-dev zlib1g-dev
     catkin python3-dynamic-reconfigure ros-message-generation ros-message-runtime
     libdiagnostic-updater-dev libdynamic-reconfigure-config-init-mutex-dev libgeometry-msgs-dev
-    libnodelet-dev libnodeletlib-dev libros-rosgraph-msgs-dev librosbag-storage-dev libroscpp-dev libroslib-dev libsensor-msgs-dev libshape-msgs-dev libstd-msgs-dev
+    libnodelet-dev libnodeletlib-dev libros-rosgraph-msgs-dev libroscpp-dev libroslib-dev libsensor-msgs-dev libshape-msgs-dev libstd-msgs-dev
     liboctomap-dev libstd-srvs-dev libtf2-dev libtf2-eigen-dev libtf2-ros-dev libtopic-tools-dev libtrajectory-msgs-dev libvisualization-msgs-dev pluginlib-dev
     ros-geometry-msgs ros-sensor-msgs ros-shape-msgs ros-std-msgs ros-std-srvs ros-trajectory-msgs ros-visualization-msgs
   )
@@ -33,7 +33,7 @@ set -euo pipefail
     python3-rosmaster python3-rospy python3-tf2-msgs python3-rosgraph-msgs python3-dynamic-reconfigure  # scripts/faults.sh
     python3-interactive-markers python3-sensor-msgs  # marker_mover.py, pick_parts.py
     python3-matplotlib  # examples/plot_niches.py, plot_distances.py
-    python3-rosbag python3-numpy  # write_robot_bag.py
+    python3-rosbag python3-numpy  # distance_bag, write_robot_bag.py
     python3-diagnostic-msgs python3-geometry-msgs python3-shape-msgs python3-std-msgs python3-tf2-ros  # the bridges
   )
   debian_demo=(
@@ -42,7 +42,7 @@ set -euo pipefail
     python3-sensor-msgs python3-tf2-msgs  # joint_player.py, pick_parts.py, move_crowd.py, simulate_camera.py
     python3-interactive-markers  # marker_mover.py
     python3-cvxopt python3-numpy python3-rosgraph-msgs  # follow_rows.py, simulate_camera.py, demo_motion.py
-    python3-matplotlib  # distance_bag --plot
+    python3-rosbag python3-matplotlib  # distance_bag
     python3-geometry-msgs python3-shape-msgs python3-std-msgs python3-std-srvs python3-trajectory-msgs python3-visualization-msgs python3-diagnostic-msgs  # what ours are made of
   )
   debian_plot=(python3-matplotlib python3-yaml valgrind dart-doc)  # the last: robots of benchmarks
@@ -58,10 +58,10 @@ set -euo pipefail
     libconsole-bridge-dev libpugixml-dev libtinyxml2-dev libxxhash-dev zlib1g-dev
     ros-noetic-catkin ros-noetic-diagnostic-updater ros-noetic-dynamic-reconfigure ros-noetic-geometry-msgs
     ros-noetic-message-generation ros-noetic-nodelet ros-noetic-pluginlib
-    ros-noetic-rosbag-storage ros-noetic-roscpp ros-noetic-rosgraph-msgs ros-noetic-roslib ros-noetic-sensor-msgs ros-noetic-shape-msgs ros-noetic-std-msgs ros-noetic-std-srvs ros-noetic-tf2
+    ros-noetic-roscpp ros-noetic-rosgraph-msgs ros-noetic-roslib ros-noetic-sensor-msgs ros-noetic-shape-msgs ros-noetic-std-msgs ros-noetic-std-srvs ros-noetic-tf2
     ros-noetic-octomap ros-noetic-tf2-eigen ros-noetic-tf2-ros ros-noetic-topic-tools ros-noetic-trajectory-msgs ros-noetic-visualization-msgs
   )
-  noetic_build=("${noetic_node[@]}" libcgal-dev libalglib-dev libfcl-dev python3-dev python3-numpy)
+  noetic_build=("${noetic_node[@]}" libcgal-dev libalglib-dev libfcl-dev pybind11-dev python3-dev python3-numpy)
   noetic_test=(
     git locales python3-yaml libgtest-dev libfcl-dev libboost-dev libbenchmark-dev ros-noetic-rostest ros-noetic-rosmaster ros-noetic-rospy ros-noetic-tf2-msgs
     ros-noetic-diagnostic-msgs ros-noetic-interactive-markers ros-noetic-rosbag ros-noetic-tf2-ros python3-matplotlib
@@ -71,7 +71,7 @@ set -euo pipefail
     ros-noetic-robot-state-publisher ros-noetic-interactive-markers ros-noetic-tf2-msgs
     python3-rospkg python3-yaml  # scripts/view_robot.py
     python3-cvxopt python3-numpy  # follow_rows.py
-    python3-matplotlib  # distance_bag --plot
+    ros-noetic-rosbag python3-matplotlib  # distance_bag
   )
   noetic_plot=(python3-matplotlib python3-yaml valgrind)
   noetic_format=(clang-format)

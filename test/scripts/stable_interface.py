@@ -129,7 +129,7 @@ def options(programs):
             for command in commands:
                 yield "option", tool, command
         for text in texts:
-            for option in re.findall(r"^  (?:-\w,)?(--[\w-]+)", text, re.MULTILINE):
+            for option in re.findall(r"^  (?:-\w, ?)?(--[\w-]+)", text, re.MULTILINE):
                 yield "option", tool, option
     for path in files("src/tools/*.cpp"):
         joined = re.sub(r'"\s*\n\s*"', "", text_of(path))

@@ -120,7 +120,7 @@ Scene loadScene(const NodeParameters& parameters, const SceneRequest& request, L
   options.descriptions = request.descriptions;
   options.progress = &progress;
   options.pool = pool;
-  options.clouds = request.clouds;
+  options.clouds = true;
   options.automatic_cutoff = parameters.automatic_cutoff;
   options.skip_overlapping_pairs = parameters.skip_overlapping_pairs;
   if (parameters.chord_error > 0.0) options.chord_error = parameters.chord_error;

@@ -26,7 +26,6 @@ struct SceneRequest {
   std::map<std::string, std::string> descriptions;  ///< as SceneLoadOptions::descriptions
   std::map<std::string, std::string> parameters;    ///< the same texts by the names that were looked for
   std::string waiting_for;                          ///< what is not there yet; empty: the scene can be loaded
-  bool clouds = true;                               ///< as SceneLoadOptions::clouds
 };
 
 /// Looks for a robot's description. @param cached as the master has sent it last

@@ -32,7 +32,7 @@ std::string rootOf(const tf2::BufferCore& buffer, std::string frame) {
 }  // namespace
 
 std::string describeMissingFrames(const tf2::BufferCore& buffer, const Scene& scene,
-                                  const std::string& reference_frame, const FrameRemedies& remedies) {
+                                  const std::string& reference_frame) {
   std::set<std::string> unknown;
   std::set<std::string> elsewhere;
   std::set<std::string> roots;
@@ -50,13 +50,14 @@ std::string describeMissingFrames(const tf2::BufferCore& buffer, const Scene& sc
   TextStream text;
   if (!unknown.empty()) {
     text << detail::counted(unknown.size(), "frame") << " of bodies " << (unknown.size() == 1 ? "is" : "are")
-         << " not on tf: " << listed(unknown) << "; " << remedies.unknown << ".";
+         << " not on tf: " << listed(unknown)
+         << "; check that robot_state_publisher runs and that the joint states name every joint.";
   }
   if (!elsewhere.empty()) {
     text << (unknown.empty() ? "" : " ") << "tf does not connect the reference frame '" << reference_frame
          << "' with " << listed(elsewhere) << ", which are below " << listed(roots)
-         << "; set ~reference_frame to " << (roots.size() == 1 ? "that" : "one of these") << ", or "
-         << remedies.apart << ".";
+         << "; set ~reference_frame to " << (roots.size() == 1 ? "that" : "one of these")
+         << ", or publish the transform between the two.";
   }
   return text.str();
 }
