@@ -27,22 +27,4 @@ inline std::string withoutMarkdown(const std::string& sentence) {
   return text;
 }
 
-/// A message of the node in the words of a tool: its parameters are options, `--stale-after` for
-/// `~stale_after`.
-inline std::string inOptions(const std::string& message) {
-  std::string text;
-  for (std::size_t i = 0; i < message.size(); ++i) {
-    std::size_t end = i + 1;
-    while (end < message.size() && (message[end] == '_' || ('a' <= message[end] && message[end] <= 'z')))
-      ++end;
-    if (message[i] != '~' || end == i + 1) {
-      text += message[i];
-      continue;
-    }
-    text += optionName(message.substr(i + 1, end - i - 1));
-    i = end - 1;
-  }
-  return text;
-}
-
 }  // namespace concave_distance::tools
