@@ -65,7 +65,6 @@ def main():
     long_bag, round_bag = folder / "long.bag", folder / "round.bag"
     write_bag(long_bag, 600.0, 100.0)
     write_bag(round_bag, ROUND, 50.0)
-    measure("load", round_bag, folder / "d.csv", ROUND, 50.0, 1)  # prepares the bodies
     lines = [measure("distances", long_bag, folder / "d1.csv", 600.0, 100.0, 1),
              measure("distances", long_bag, folder / "d.csv", 600.0, 100.0, 0),
              measure("niches", round_bag, folder / "n.csv", ROUND, 50.0, 1,
