@@ -14,7 +14,8 @@ std_msgs::ColorRGBA makeColor(const Eigen::Vector3d& red_green_blue, double opac
 visualization_msgs::Marker emptyMarker(const std_msgs::Header& header, const std::string& ns,
                                        std::int32_t id);
 
-/// Makes the marker a text that faces the camera, just above a point of the header's frame.
+/// Makes the marker a text that faces the camera and begins beside a point of the header's frame, a little
+/// higher: rviz centres it with the spaces before it, so that a body there hides little of it.
 /// @param scale of the markers, > 0 m
 void makeLabel(const std::string& text, const Eigen::Vector3d& point, double scale,
                visualization_msgs::Marker& marker);

@@ -21,8 +21,8 @@ using visualization_msgs::Marker;
 constexpr double kScaleShare = 0.009;   // diameter of the nearest points over the scene's size
 constexpr double kFarShare = 0.2;       // end of the colour gradient over the scene's size
 constexpr double kSizeOfNothing = 1.0;  // m
-constexpr double kRow = 1.2;            // from a label to the one above it, in letters
-constexpr double kWidth = 5.0;          // of a label that others are kept from, likewise
+constexpr double kRow = 1.5;            // from a label to the one above it, in letters
+constexpr double kWidth = 12.0;         // of a label that others are kept from, likewise
 constexpr std::size_t kMostStacked = 50;
 constexpr double kTintOffset = 0.1;  // distance of a red copy from the surface, over the scale
 constexpr double kTintLives = 3.0;   // lifetime of a red copy, in renewals
