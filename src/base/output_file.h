@@ -6,8 +6,8 @@
 
 namespace concave_distance {
 
-/// Writes a file that is complete or missing: to a temporary file beside it, which finish() renames. Anything
-/// that is not a regular file (a device, a pipe, all below /dev and /proc) is written directly.
+/// Writes a file that is complete or missing: to a temporary file beside it, which finish() renames. A link,
+/// a device or a pipe is written directly.
 class OutputFile {
  public:
   /// @throws Error when it cannot be written
@@ -28,9 +28,8 @@ class OutputFile {
   void finish();
 
  private:
-  std::string path_;       ///< as the user names it
-  std::string target_;     ///< behind symbolic links
-  std::string temporary_;  ///< empty: written directly, or finished
+  std::string path_;
+  std::string written_;  ///< path_ where it is written directly, or finished
   std::ofstream stream_;
 };
 
@@ -40,13 +39,7 @@ struct NamedPath {
   std::string path;  ///< empty: none
 };
 
-/// @throws Error when an output is an input or another output, also through a link. Devices and pipes may be.
+/// @throws Error when an output is an input or another output. Devices and pipes may be.
 void requireDistinctFiles(const std::vector<NamedPath>& inputs, const std::vector<NamedPath>& outputs);
-
-/// Lets a write fail when its reader goes away, instead of ending the program; for command-line tools.
-void ignoreClosedPipes();
-
-/// Writes buffered data of standard output. @throws Error when something could not be written
-void finishStandardOutput();
 
 }  // namespace concave_distance
