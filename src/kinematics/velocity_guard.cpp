@@ -97,7 +97,6 @@ struct VelocityGuard::Parts {
   const GuardDecision& settle(const Limit& limit, std::size_t id, double now) {
     const double elapsed = has_decided ? std::max(0.0, now - last_now) : 0.0;
     const double highest = settings.rise_time > 0.0 ? decision.scale + elapsed / settings.rise_time : 1.0;
-    decision.wanted = limit.scale;
     decision.scale = std::min(limit.scale, highest);
     decision.reason = decision.scale < limit.scale ? GuardReason::Rising : limit.reason;
     decision.id = id;
@@ -121,9 +120,6 @@ VelocityGuard::~VelocityGuard() = default;
 VelocityGuard::VelocityGuard(VelocityGuard&&) noexcept = default;
 VelocityGuard& VelocityGuard::operator=(VelocityGuard&&) noexcept = default;
 
-const GuardSettings& VelocityGuard::settings() const {
-  return parts_->settings;
-}
 const GuardDecision& VelocityGuard::last() const {
   return parts_->decision;
 }

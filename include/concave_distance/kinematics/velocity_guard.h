@@ -58,10 +58,9 @@ enum class GuardReason : std::uint8_t {
 
 struct GuardDecision {
   static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
-  double scale = 0.0;   ///< 0 to 1, to multiply the whole command with
-  double wanted = 0.0;  ///< without the slow rise
+  double scale = 0.0;  ///< 0 to 1, to multiply the whole command with
   GuardReason reason = GuardReason::NoRows;
-  std::size_t id = kNone;                   ///< GuardPlace::id of the place that decided `wanted`
+  std::size_t id = kNone;                   ///< GuardPlace::id of the place that decided
   double room = kNotComputed;               ///< metres: its value less the margin
   double closing = kNotComputed;            ///< m/s at scale 1, with its drift
   double stopping_distance = kNotComputed;  ///< metres at scale 1
@@ -86,7 +85,6 @@ class VelocityGuard {
   VelocityGuard(VelocityGuard&&) noexcept;
   VelocityGuard& operator=(VelocityGuard&&) noexcept;
 
-  const GuardSettings& settings() const;
   /// Forgets the last scale: the next rises from 0.
   void reset();
 

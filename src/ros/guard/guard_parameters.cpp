@@ -10,30 +10,16 @@ namespace concave_distance {
 
 const ParameterTable<GuardParameters>& guardParameterTable() {
   using P = GuardParameters;
-  const std::vector<std::pair<std::string, GuardCommandKind>> kinds = {
-      {"none", GuardCommandKind::None},
-      {"joint_velocities", GuardCommandKind::JointVelocities},
-      {"twist", GuardCommandKind::Twist},
-      {"cmd_vel", GuardCommandKind::CmdVel}};
   static const ParameterTable<P> table = {
-      text<P>(
-          "constraints_topic", "a topic", [](auto& p) -> auto& { return p.constraints_topic; },
-          "rows of the distance node"),
-      text<P>(
-          "scale_topic", "a topic", [](auto& p) -> auto& { return p.scale_topic; },
-          "where the scale goes; by default where MoveIt Servo listens"),
-      choice<P>(
-          "command", kinds, [](auto& p) -> auto& { return p.command; },
-          "what is scaled: `none`, joint velocities, a twist with a header, or a twist without one"),
       list<P>(
           "joints", "a list of names", [](auto& p) -> auto& { return p.joints; },
-          "the order of `joint_velocities`: names as in `constraints`, with their robot's prefix"),
+          "the order of `~joint_velocities`: names as in `constraints`, with their robot's prefix"),
       text<P>(
           "twist_frame", "a tf frame", [](auto& p) -> auto& { return p.twist_frame; },
-          "the link that `twist` or `cmd_vel` moves, with all that hangs on it"),
+          "instead of `joints`: the link that `~twist` moves, with all that hangs on it"),
       number<P>(
           "command_timeout", [](auto& p) -> auto& { return p.command_timeout; },
-          "zeros go out when no command has come for so long")
+          "a command that is older counts as one of zeros")
           .inUnit("s")
           .from(0.001)
           .to(60.0),
@@ -85,22 +71,17 @@ GuardParameters parseGuardParameters(const XmlRpc::XmlRpcValue& values, std::vec
   GuardParameters parameters;
   reader.read(guardParameterTable(), false, parameters);
   unknown = reader.unread({});
-  for (const auto& [name, topic] : {std::pair("~constraints_topic", parameters.constraints_topic),
-                                    std::pair("~scale_topic", parameters.scale_topic)}) {
-    if (topic.empty()) throw Error(name, "it is empty", "name a topic");
-  }
-  if (parameters.command == GuardCommandKind::JointVelocities) {
-    if (!parameters.joints || parameters.joints->empty()) {
-      throw Error("~joints", "it is empty", "name the joints in the order of the command");
-    }
+  if (parameters.joints) {
     const std::set<std::string> names(parameters.joints->begin(), parameters.joints->end());
-    if (names.size() != parameters.joints->size()) {
-      throw Error("~joints", "a joint is named twice", "name each once");
+    if (names.empty() || names.size() != parameters.joints->size()) {
+      throw Error("~joints", "it is empty or names a joint twice", "name each in the order of the command");
     }
+    if (!parameters.twist_frame.empty()) {
+      throw Error("~twist_frame", "~joints are given too", "give one of them");
+    }
+  } else if (!parameters.twist_frame.empty()) {
+    parameters.twist_frame = requireFrameName(parameters.twist_frame, "~twist_frame");
   }
-  const bool has_twist =
-      parameters.command == GuardCommandKind::Twist || parameters.command == GuardCommandKind::CmdVel;
-  if (has_twist) parameters.twist_frame = requireFrameName(parameters.twist_frame, "~twist_frame");
   return parameters;
 }
 

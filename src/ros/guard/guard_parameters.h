@@ -2,7 +2,6 @@
 
 #include <xmlrpcpp/XmlRpcValue.h>
 
-#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,19 +11,9 @@
 
 namespace concave_distance {
 
-/// Says what a guard is given to scale.
-enum class GuardCommandKind : std::uint8_t {
-  None,             ///< nothing: only the scale is published, by speeds as they are measured
-  JointVelocities,  ///< std_msgs/Float64MultiArray
-  Twist,            ///< geometry_msgs/TwistStamped
-  CmdVel            ///< geometry_msgs/Twist
-};
-
-/// Every private parameter of velocity_guard, validated (doc/velocity_guard.md). SI units.
+/// Every private parameter of velocity_guard, validated (doc/velocity_guard.md). SI units. The command is
+/// joint velocities where `joints` are named, a twist where `twist_frame` is, else there is none.
 struct GuardParameters {
-  std::string constraints_topic = "/concave_distance/constraints";
-  std::string scale_topic = "/servo_server/internal/collision_velocity_scale";
-  GuardCommandKind command = GuardCommandKind::None;
   std::optional<std::vector<std::string>> joints;
   std::string twist_frame;
   double command_timeout = 0.2;

@@ -1,6 +1,9 @@
 #include "guard_server.h"
 
+#include <concave_distance/GuardState.h>
 #include <ros/console.h>
+#include <std_msgs/Float64.h>
+#include <std_msgs/Float64MultiArray.h>
 
 #include <algorithm>
 #include <cmath>
@@ -13,8 +16,9 @@
 namespace concave_distance {
 namespace {
 
-constexpr double kGuardLogPeriod = 5.0;  // s, between two warnings
-constexpr int kFrameHops = 100;          // a longer chain of tf frames is a loop
+constexpr const char* kRowsTopic = "/concave_distance/constraints";
+constexpr std::uint32_t kQueueLength = 2;  // that of MoveIt Servo's own collision check
+constexpr int kFrameHops = 100;            // a longer chain of tf frames is a loop
 
 GuardParameters readGuardParameters(const ros::NodeHandle& node) {
   XmlRpc::XmlRpcValue values;
@@ -32,235 +36,150 @@ Eigen::Vector3d vectorOf(const geometry_msgs::Vector3& vector) {
   return {vector.x, vector.y, vector.z};
 }
 
-bool isFault(GuardReason reason) {
-  return reason != GuardReason::Free && reason != GuardReason::Closing && reason != GuardReason::Rising;
-}
-
 }  // namespace
 
-GuardServer::GuardServer(const ros::NodeHandle& node, const ros::NodeHandle& private_node,
-                         const std::string& name)
-    : node_(node),
-      private_node_(private_node),
-      parameters_(readGuardParameters(private_node)),
-      guard_(parameters_.guard),
-      outputs_(node_, private_node_, parameters_),
-      updater_(node, ros::NodeHandle(private_node, "diagnostic_updater"), name) {
-  updater_.setHardwareID("none");
-  updater_.add("scale", [this](auto& status) { diagnose(status); });
-  subscribe();
-  timer_ = private_node_.createWallTimer(ros::WallDuration(1.0 / parameters_.rate), [this](const auto&) {
-    guarded("The guard's timer", [&] {
-      updater_.update();
-      const std::lock_guard<std::mutex> lock(mutex_);
-      act(ros::Time::now());
-    });
-  });
-}
-
-void GuardServer::subscribe() {
-  constraint_subscriber_ = node_.subscribe(parameters_.constraints_topic, 1, &GuardServer::onConstraints,
-                                           this, ros::TransportHints().tcpNoDelay());
-  if (parameters_.command == GuardCommandKind::JointVelocities) {
-    command_subscriber_ = private_node_.subscribe("joint_velocities_in", 1, &GuardServer::onVelocities, this);
-  }
-  if (parameters_.command == GuardCommandKind::Twist || parameters_.command == GuardCommandKind::CmdVel) {
-    buffer_ = std::make_unique<tf2_ros::Buffer>();
-    listener_ = std::make_unique<tf2_ros::TransformListener>(*buffer_, node_);
-  }
-  if (parameters_.command == GuardCommandKind::Twist) {
-    command_subscriber_ = private_node_.subscribe<geometry_msgs::TwistStamped>(
-        "twist_in", 1, [this](const geometry_msgs::TwistStamped::ConstPtr& message) { onTwist(*message); });
-  }
-  if (parameters_.command == GuardCommandKind::CmdVel) {
-    command_subscriber_ = private_node_.subscribe<geometry_msgs::Twist>(
-        "cmd_vel_in", 1, [this](const geometry_msgs::Twist::ConstPtr& message) {
-          geometry_msgs::TwistStamped stamped;
-          stamped.twist = *message;
-          onTwist(stamped);
-        });
-  }
-}
-
-void GuardServer::onConstraints(const Constraints::ConstPtr& message) {
-  guarded("Taking rows", [&] {
+template <typename Change>
+void GuardServer::act(const char* what, const Change& change) {
+  guarded(what, [&] {
     const std::lock_guard<std::mutex> lock(mutex_);
-    rows_ = message;
-    places_.measure(*message);
+    change();
     act(ros::Time::now());
   });
 }
 
-void GuardServer::onVelocities(const std_msgs::Float64MultiArray::ConstPtr& message) {
-  guarded("Taking a command", [&] {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    const ros::Time now = ros::Time::now();
-    command_ = Command{now, message->data, {}};
-    act(now);
-  });
-}
-
-void GuardServer::onTwist(const geometry_msgs::TwistStamped& message) {
-  guarded("Taking a command", [&] {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    const ros::Time now = ros::Time::now();
-    command_ = Command{now, {}, message};
-    act(now);
-  });
-}
-
-bool GuardServer::hasCommand(ros::Time now) const {
-  return command_ && std::abs(secondsBetween(command_->time, now)) <= parameters_.command_timeout;
-}
-
-std::string GuardServer::faultOf(const Command& command) const {
-  TextStream text;
-  if (parameters_.command == GuardCommandKind::JointVelocities) {
-    const std::size_t wanted = parameters_.joints->size();
-    if (command.velocities.size() != wanted) {
-      text << "the command has " << command.velocities.size() << " numbers; ~joints names " << wanted
-           << " joints: send one for each";
-      return text.str();
-    }
-    for (std::size_t i = 0; i < wanted; ++i) {
-      if (std::isfinite(command.velocities[i])) continue;
-      return "the command for joint '" + (*parameters_.joints)[i] + "' is not finite";
-    }
-    return "";
+GuardServer::GuardServer(ros::NodeHandle node, ros::NodeHandle private_node)
+    : parameters_(readGuardParameters(private_node)), guard_(parameters_.guard) {
+  scale_publisher_ = private_node.advertise<std_msgs::Float64>("scale", kQueueLength);
+  state_publisher_ = private_node.advertise<GuardState>("state", kQueueLength, true);
+  row_subscriber_ =
+      node.subscribe(kRowsTopic, 1, &GuardServer::takeRows, this, ros::TransportHints().tcpNoDelay());
+  if (parameters_.joints) {
+    command_subscriber_ = private_node.subscribe<std_msgs::Float64MultiArray>(
+        "joint_velocities", 1, [this](const std_msgs::Float64MultiArray::ConstPtr& message) {
+          act("Taking a command", [&] { command_ = Command{ros::Time::now(), message->data, {}}; });
+        });
+  } else if (!parameters_.twist_frame.empty()) {
+    listener_ = std::make_unique<tf2_ros::TransformListener>(buffer_, node);
+    command_subscriber_ = private_node.subscribe<geometry_msgs::TwistStamped>(
+        "twist", 1, [this](const geometry_msgs::TwistStamped::ConstPtr& message) {
+          act("Taking a command", [&] { command_ = Command{ros::Time::now(), {}, *message}; });
+        });
   }
-  const geometry_msgs::Twist& twist = command.twist.twist;
-  const bool is_finite = vectorOf(twist.linear).allFinite() && vectorOf(twist.angular).allFinite();
-  return is_finite ? "" : "a number of the commanded twist is not finite";
+  timer_ = private_node.createWallTimer(ros::WallDuration(1.0 / parameters_.rate),
+                                        [this](const auto&) { act("The guard's timer", [] {}); });
+}
+
+void GuardServer::takeRows(const Constraints::ConstPtr& rows) {
+  act("Taking rows", [&] {
+    rows_ = rows;
+    places_.measure(*rows);
+  });
 }
 
 void GuardServer::act(ros::Time now) {
   if (now < last_now_) {
     rows_.reset();  // of the time before the jump
     command_.reset();
-    places_.reset();
+    places_ = {};
   }
   last_now_ = now;
   fault_.clear();
-  hangs_.clear();
-  const GuardDecision decision = decide(now);
-  const double age = rows_ ? secondsBetween(rows_->transforms, now) : 0.0;
-  words_ = wordsFor(decision, rows_.get(), parameters_.guard, age, fault_);
-  if (isFault(decision.reason)) ROS_WARN_STREAM_THROTTLE(kGuardLogPeriod, "The scale is 0: " << words_);
-  outputs_.publish(decision, rows_.get(), words_, now);
-  if (!command_) return;  // from the first command on: zeros where none comes, or a wrong one
-  const bool is_good = hasCommand(now) && faultOf(*command_).empty();
-  if (parameters_.command == GuardCommandKind::JointVelocities) {
-    outputs_.publishVelocities(is_good ? command_->velocities : std::vector<double>(), decision.scale);
-  } else {
-    outputs_.publishTwist(command_->twist, is_good ? decision.scale : 0.0, now);
-  }
+  const GuardDecision decision = decide(now.toSec());
+  std_msgs::Float64 scale;
+  scale.data = decision.scale;
+  scale_publisher_.publish(scale);
+  GuardState state;
+  state.header.stamp = now;
+  state.scale = decision.scale;
+  if (rows_) state.header.frame_id = rows_->header.frame_id;
+  state.reason = fault_.empty()
+                     ? wordsFor(decision, *rows_, parameters_.guard, secondsBetween(rows_->transforms, now))
+                     : fault_;
+  state_publisher_.publish(state);
 }
 
-const GuardDecision& GuardServer::decide(ros::Time now) {
-  const double seconds = now.toSec();
-  if (hasCommand(now)) {
-    fault_ = faultOf(*command_);
-    if (!fault_.empty()) {
-      const bool is_number = fault_.find("finite") != std::string::npos;
-      return guard_.stop(is_number ? GuardReason::NotFinite : GuardReason::BadCommand, seconds);
-    }
+const GuardDecision& GuardServer::stop(GuardReason reason, const std::string& words) {
+  fault_ = words;
+  return guard_.stop(reason, last_now_.toSec());
+}
+
+const GuardDecision& GuardServer::decide(double now) {
+  if (!rows_) {
+    return stop(GuardReason::NoRows,
+                "no rows have come yet; check the topic " + row_subscriber_.getTopic() + " and its node");
   }
-  if (!rows_) return guard_.stop(GuardReason::NoRows, seconds);
-  if (!rows_->problems.empty()) {
-    fault_ = rows_->problems.front();
-    return guard_.stop(GuardReason::Unknown, seconds);
-  }
+  if (!rows_->problems.empty()) return stop(GuardReason::Unknown, rows_->problems.front());
   const double stamp = rows_->transforms.toSec();
-  switch (parameters_.command) {
-    case GuardCommandKind::None:
-      return guard_.decide(places_.asMeasured(*rows_, guard_.last().scale), 0.0, stamp, seconds);
-    case GuardCommandKind::JointVelocities:
-      return decideByJoints(stamp, seconds);
-    default:
-      return decideByTwist(stamp, seconds);
-  }
+  // What is older counts as a command of zeros.
+  const bool is_commanded = command_ && std::abs(now - command_->time.toSec()) <= parameters_.command_timeout;
+  if (parameters_.joints) return decideByJoints(is_commanded, stamp, now);
+  if (listener_) return decideByTwist(is_commanded, stamp, now);
+  return guard_.decide(places_.ofTwist(*rows_, nullptr, guard_.last().scale), 0.0, stamp, now);
 }
 
-const GuardDecision& GuardServer::decideByJoints(double stamp, double now) {
+const GuardDecision& GuardServer::decideByJoints(bool is_commanded, double stamp, double now) {
+  const std::vector<std::string>& joints = *parameters_.joints;
+  if (is_commanded && command_->velocities.size() != joints.size()) {
+    return stop(GuardReason::BadCommand, "the command has " + std::to_string(command_->velocities.size()) +
+                                             " numbers; ~joints names " + std::to_string(joints.size()) +
+                                             " joints: send one for each");
+  }
   std::vector<double> velocities(rows_->joints.size(), 0.0);
   double fastest = 0.0;
-  for (std::size_t i = 0; i < parameters_.joints->size(); ++i) {
-    const std::string& name = (*parameters_.joints)[i];
-    const auto found = std::find(rows_->joints.begin(), rows_->joints.end(), name);
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    const auto found = std::find(rows_->joints.begin(), rows_->joints.end(), joints[i]);
     if (found == rows_->joints.end()) {
-      fault_ = "joint '" + name +
-               "' is not among the joints of the rows: its robot has left, or its name there has a prefix";
-      return guard_.stop(GuardReason::BadCommand, now);
+      return stop(GuardReason::BadCommand,
+                  "joint '" + joints[i] + "' is not among the joints of the rows; check its prefix");
     }
-    if (!hasCommand(last_now_)) continue;
-    velocities[static_cast<std::size_t>(found - rows_->joints.begin())] = command_->velocities[i];
-    fastest = std::max(fastest, std::abs(command_->velocities[i]));
+    if (!is_commanded) continue;
+    const double velocity = command_->velocities[i];
+    if (!std::isfinite(velocity)) {
+      return stop(GuardReason::NotFinite, "the command for joint '" + joints[i] + "' is not finite");
+    }
+    velocities[static_cast<std::size_t>(found - rows_->joints.begin())] = velocity;
+    fastest = std::max(fastest, std::abs(velocity));
   }
-  const auto& deceleration = parameters_.guard.joint_deceleration;
-  return guard_.decide(places_.ofJoints(*rows_, velocities), deceleration ? fastest / *deceleration : 0.0,
-                       stamp, now);
+  const double braking = fastest / parameters_.guard.joint_deceleration.value_or(INFINITY);
+  return guard_.decide(places_.ofJoints(*rows_, velocities), braking, stamp, now);
 }
 
-const GuardDecision& GuardServer::decideByTwist(double stamp, double now) {
-  const std::optional<GuardTwist> twist = readTwist();
-  if (!twist) return guard_.stop(GuardReason::BadCommand, now);
-  double braking = 0.0;
-  if (hasCommand(last_now_)) {
-    const geometry_msgs::Twist& given = command_->twist.twist;
-    braking = vectorOf(given.linear).norm() / parameters_.guard.deceleration;
-    if (parameters_.guard.joint_deceleration) {
-      braking = std::max(braking, vectorOf(given.angular).norm() / *parameters_.guard.joint_deceleration);
-    }
-  }
-  return guard_.decide(places_.ofTwist(*rows_, *twist, guard_.last().scale), braking, stamp, now);
-}
-
-// The velocity of the frame's origin and its turning, in the rows' frame; no command is a twist of zeros.
-std::optional<GuardTwist> GuardServer::readTwist() {
-  GuardTwist read;
-  read.moves = [this](const std::string& frame) { return hangsOnTwistFrame(frame); };
-  const std::string& reference = rows_->header.frame_id;
+// By the velocity of the frame's origin and its turning, in the rows' frame.
+const GuardDecision& GuardServer::decideByTwist(bool is_commanded, double stamp, double now) {
+  const geometry_msgs::TwistStamped given = is_commanded ? command_->twist : geometry_msgs::TwistStamped();
+  const Eigen::Vector3d linear = vectorOf(given.twist.linear);
+  const Eigen::Vector3d angular = vectorOf(given.twist.angular);
+  if (!linear.allFinite() || !angular.allFinite())
+    return stop(GuardReason::NotFinite, "a number of the commanded twist is not finite");
+  GuardTwist twist;
+  twist.moves = [this](const std::string& frame) { return hangsOnTwistFrame(frame); };
   try {
-    const auto transform =
-        buffer_->lookupTransform(reference, parameters_.twist_frame, ros::Time(0)).transform;
-    if (!hasCommand(last_now_)) return read;
-    const std::string given = command_->twist.header.frame_id;
-    const std::string frame = given.empty()     ? parameters_.twist_frame
-                              : given[0] == '/' ? given.substr(1)
-                                                : given;
-    const auto turn = buffer_->lookupTransform(reference, frame, ros::Time(0)).transform.rotation;
+    const std::string& reference = rows_->header.frame_id;
+    std::string frame = given.header.frame_id.empty() ? parameters_.twist_frame : given.header.frame_id;
+    if (frame[0] == '/') frame.erase(0, 1);
+    const auto place = buffer_.lookupTransform(reference, parameters_.twist_frame, ros::Time(0)).transform;
+    const auto turn = buffer_.lookupTransform(reference, frame, ros::Time(0)).transform.rotation;
     const Eigen::Quaterniond reference_from_given(turn.w, turn.x, turn.y, turn.z);
-    read.twist.angular = reference_from_given * vectorOf(command_->twist.twist.angular);
-    read.twist.linear = reference_from_given * vectorOf(command_->twist.twist.linear) -
-                        read.twist.angular.cross(vectorOf(transform.translation));
-    return read;
+    twist.twist.angular = reference_from_given * angular;
+    twist.twist.linear =
+        reference_from_given * linear - twist.twist.angular.cross(vectorOf(place.translation));
   } catch (const tf2::TransformException& problem) {
-    fault_ = std::string("the frame of the twist is not known: ") + problem.what() +
-             "; check ~twist_frame and the command's header";
-    return std::nullopt;
+    return stop(GuardReason::BadCommand, std::string("the frame of the twist is not known: ") +
+                                             problem.what() +
+                                             "; check ~twist_frame and the command's header");
   }
+  const double turning = angular.norm() / parameters_.guard.joint_deceleration.value_or(INFINITY);
+  return guard_.decide(places_.ofTwist(*rows_, &twist, guard_.last().scale),
+                       std::max(turning, linear.norm() / parameters_.guard.deceleration), stamp, now);
 }
 
-bool GuardServer::hangsOnTwistFrame(const std::string& frame) {
-  const auto known = hangs_.find(frame);
-  if (known != hangs_.end()) return known->second;
-  std::string at = frame;
-  bool hangs = at == parameters_.twist_frame;
-  for (int hops = 0; !hangs && hops < kFrameHops; ++hops) {
+bool GuardServer::hangsOnTwistFrame(std::string frame) const {
+  for (int hops = 0; frame != parameters_.twist_frame; ++hops) {
     std::string parent;
-    if (!buffer_->_getParent(at, ros::Time(0), parent)) break;
-    at = parent;
-    hangs = at == parameters_.twist_frame;
+    if (hops == kFrameHops || !buffer_._getParent(frame, ros::Time(0), parent)) return false;
+    frame = parent;
   }
-  return hangs_[frame] = hangs;
-}
-
-void GuardServer::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  const GuardDecision& last = guard_.last();
-  status.summary(isFault(last.reason) ? 2 : last.scale == 0.0 ? 1 : 0, words_);
-  status.add("scale", last.scale);
-  status.add("pair", rows_ ? pairOf(last, *rows_) : "");
+  return true;
 }
 
 }  // namespace concave_distance

@@ -8,12 +8,9 @@
 
 namespace concave_distance {
 
-/// The name of the pair, or of the body, that a decision names; empty: none.
-std::string pairOf(const GuardDecision& decision, const Constraints& message);
-/// Says what decided a scale, and what to do where it is a fault.
-/// @param message that it was decided by; nullptr: none has come
-/// @param fault said of the command; empty: none
-std::string wordsFor(const GuardDecision& decision, const Constraints* message, const GuardSettings& settings,
-                     double age, const std::string& fault);
+/// Says what decided a scale, and what to do where something is wrong.
+/// @param rows that it was decided by @param age of their transforms, s
+std::string wordsFor(const GuardDecision& decision, const Constraints& rows, const GuardSettings& settings,
+                     double age);
 
 }  // namespace concave_distance

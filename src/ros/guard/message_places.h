@@ -2,7 +2,6 @@
 
 #include <concave_distance/Constraints.h>
 
-#include <Eigen/Geometry>
 #include <functional>
 #include <string>
 #include <vector>
@@ -27,21 +26,16 @@ class MessagePlaces {
 
   /// Takes the speeds of a new message of the topic, from its values and the last one's.
   void measure(const Constraints& message);
-  void reset();
 
   /// @param velocities a number for each of message.joints
   const Places& ofJoints(const Constraints& message, const std::vector<double>& velocities);
-  /// Bodies that hang on the frame close by the twist; of other links that joints move, the speeds are the
-  /// measured ones. @param scale in force while they were measured
-  const Places& ofTwist(const Constraints& message, const GuardTwist& twist, double scale);
-  /// All speeds are the measured ones. @param scale as above
-  const Places& asMeasured(const Constraints& message, double scale);
+  /// Bodies that hang on the frame close by the twist; of all others the speeds are the measured ones.
+  /// @param twist nullptr: none, all speeds are measured @param scale in force while they were measured
+  const Places& ofTwist(const Constraints& message, const GuardTwist* twist, double scale);
 
  private:
-  GuardPlace rowOf(const Constraints& message, std::size_t slot) const;
-  static GuardPlace unlistedOf(const Constraints& message, std::size_t index);
-  template <typename Complete, typename CompleteUnlisted>
-  const Places& make(const Constraints& message, Complete complete, CompleteUnlisted complete_unlisted);
+  /// Makes the places, but for the speeds that a command gives them.
+  void begin(const Constraints& message);
 
   detail::ClosingMeter meter_;
   std::vector<double> measured_;  ///< m/s by slot

@@ -14,7 +14,7 @@ int main(int argc, char** argv) {
   const ros::NodeHandle node;
   const ros::NodeHandle private_node("~");
   try {
-    const concave_distance::GuardServer server(node, private_node, ros::this_node::getName());
+    const concave_distance::GuardServer server(node, private_node);
     ros::spin();
   } catch (const std::exception& problem) {
     ROS_FATAL_STREAM(problem.what());

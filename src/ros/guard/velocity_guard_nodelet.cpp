@@ -13,7 +13,7 @@ class VelocityGuardNodelet : public nodelet::Nodelet {
  private:
   void onInit() override {
     try {
-      server_ = std::make_unique<GuardServer>(getNodeHandle(), getPrivateNodeHandle(), getName());
+      server_ = std::make_unique<GuardServer>(getNodeHandle(), getPrivateNodeHandle());
     } catch (const std::exception& problem) {
       NODELET_FATAL_STREAM(problem.what());
     }

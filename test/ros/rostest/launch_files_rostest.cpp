@@ -173,8 +173,8 @@ INSTANTIATE_TEST_SUITE_P(Bridges, BridgeLaunchFile, testing::Values("cob_bridge"
 
 INSTANTIATE_TEST_SUITE_P(Demos, DemoLaunchFile,
                          testing::Values("insertion.launch", "contact.launch", "interactive.launch",
-                                         "velocity_guard.launch", "robot.launch", "cell.launch",
-                                         "clouds.launch", "crowd.launch", "rows.launch", "simulation.launch"),
+                                         "robot.launch", "cell.launch", "clouds.launch", "crowd.launch",
+                                         "rows.launch", "simulation.launch"),
                          [](const auto& info) {
                            const std::string name = info.param;
                            return name.substr(0, name.find('.'));
