@@ -27,17 +27,18 @@ class ExpiryQueues {
   std::size_t size() const { return size_; }
 
   /// @param expiry above the counter
-  /// @return false without memory
+  /// @return false when the limit admits no more entries
   bool insert(std::uint32_t counter, std::uint64_t expiry, const Key& key, WorkLimit& limit) {
-    if (!put(queues_[counter], {expiry, key}, limit)) return false;
+    if (!limit.admits(size_ + 1)) return false;
+    put(queues_[counter], {expiry, key});
     ++size_;
     return true;
   }
 
-  /// Raises a counter and takes out every entry whose expiry it has reached; without memory others, too.
+  /// Raises a counter and takes out every entry whose expiry it has reached.
   /// @param expired (key) may not insert for this counter
   template <typename Expired>
-  void advance(std::uint32_t counter, std::uint64_t to, const Expired& expired, WorkLimit& limit) {
+  void advance(std::uint32_t counter, std::uint64_t to, const Expired& expired) {
     Queue& queue = queues_[counter];
     if (to <= queue.now) return;
     const std::uint64_t highest = highestBit(to ^ queue.now);
@@ -50,7 +51,11 @@ class ExpiryQueues {
     }
     if (!is_mixed) return;
     takeOut(queue.heads[bucketOf(highest)], [&](const Entry& entry) {
-      if (entry.expiry <= to || !put(queue, entry, limit)) report(entry, expired);
+      if (entry.expiry <= to) {
+        report(entry, expired);
+      } else {
+        put(queue, entry);
+      }
     });
   }
 
@@ -65,10 +70,6 @@ class ExpiryQueues {
         }
       }
     }
-  }
-
-  std::size_t memoryBytes() const {
-    return queues_.capacity() * sizeof(Queue) + chunks_.capacity() * sizeof(Chunk);
   }
 
  private:
@@ -102,7 +103,7 @@ class ExpiryQueues {
     expired(entry.key);
   }
 
-  bool put(Queue& queue, const Entry& entry, WorkLimit& limit) {
+  void put(Queue& queue, const Entry& entry) {
     const std::uint64_t bit = highestBit(entry.expiry ^ queue.now);
     std::uint32_t& head = queue.heads[bucketOf(bit)];
     if ((queue.occupied & bit) == 0) head = kEnd;
@@ -111,7 +112,6 @@ class ExpiryQueues {
       if (index != kEnd) {
         free_ = chunks_[index].next;
       } else {
-        if (!limit.makeRoom(chunks_)) return false;
         index = static_cast<std::uint32_t>(chunks_.size());
         chunks_.emplace_back();
       }
@@ -122,7 +122,6 @@ class ExpiryQueues {
     }
     Chunk& chunk = chunks_[head];
     chunk.entries[chunk.count++] = entry;
-    return true;
   }
 
   /// Frees the chunks of a bucket as it goes.

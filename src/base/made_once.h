@@ -25,9 +25,6 @@ class MadeOnce {
     return value_;
   }
 
-  /// Memory of the value's parts; 0 before it is made.
-  std::size_t memoryBytes() const { return ifMade() != nullptr ? ifMade()->memoryBytes() : 0; }
-
  private:
   mutable std::once_flag once_;
   mutable T value_;

@@ -4,15 +4,6 @@
 
 namespace concave_distance {
 
-bool PairTable::makeRoom(WorkLimit& limit) {
-  if (2 * (size_ + 1) <= slots_.size()) return true;
-  const std::size_t before = slots_.size() * sizeof(Slot);
-  if (!limit.takeMemory(2 * before)) return false;
-  grow();
-  limit.returnMemory(before);
-  return true;
-}
-
 void PairTable::clear() {
   size_ = 0;
   if (++stamp_ != 0) return;

@@ -4,14 +4,12 @@
 #include <cstdint>
 #include <vector>
 
-#include "concave_distance/base/work_limit.h"
 #include "pair_key.h"
 
 namespace concave_distance {
 
 /// Maps pairs of nodes or of triangles to numbers: open addressing, doubled when half full. Library tables
-/// clear in time proportional to their capacity and do not report what growing takes; this one clears in
-/// constant time, keeps its capacity and asks a WorkLimit before it grows.
+/// clear in time proportional to their capacity; this one clears in constant time and keeps its capacity.
 class PairTable {
  public:
   static constexpr std::uint32_t kAbsent = 0xffffffffU;
@@ -24,9 +22,6 @@ class PairTable {
   void reserve(std::uint32_t capacity_log2) {
     while (slots_.size() < std::size_t{1} << capacity_log2) grow();
   }
-
-  /// Grows, if the limit allows it, so that another pair can be inserted. False: it does not.
-  bool makeRoom(WorkLimit& limit);
 
   /// Forgets all pairs.
   void clear();
@@ -52,7 +47,6 @@ class PairTable {
   }
 
   std::size_t size() const { return size_; }
-  std::size_t memoryBytes() const { return slots_.capacity() * sizeof(Slot); }
 
  private:
   struct Slot {

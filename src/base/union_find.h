@@ -5,8 +5,6 @@
 #include <numeric>
 #include <vector>
 
-#include "concave_distance/base/work_limit.h"
-
 namespace concave_distance {
 
 /// Disjoint sets of the numbers 0 to count - 1. Each set has one representative.
@@ -21,16 +19,12 @@ class UnionFind {
     std::iota(parent_.begin(), parent_.end(), 0U);
   }
 
-  /// Grows, if the limit allows it, so that `more` numbers can be added. False: it does not.
-  bool makeRoom(WorkLimit& limit, std::size_t more = 1) { return limit.makeRoom(parent_, more); }
-
   /// Makes a set of one more number and returns it.
   std::uint32_t add() {
     parent_.push_back(static_cast<std::uint32_t>(parent_.size()));
     return parent_.back();
   }
   std::size_t size() const { return parent_.size(); }
-  std::size_t memoryBytes() const { return parent_.capacity() * sizeof(std::uint32_t); }
 
   /// Returns the representative of the set that holds `i`.
   std::uint32_t find(std::uint32_t i) {

@@ -34,7 +34,6 @@ class DeepestPlaceSearch {
   void begin(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b, double tolerance);
   /// @param first, last facets of one region
   DeepestPlace find(const OverlapFacet* first, const OverlapFacet* last, WorkLimit& limit);
-  std::size_t memoryBytes() const { return parts_.capacity() * sizeof(Part); }
 
  private:
   /// A part of a facet, in the frame of the body that it is inside of.

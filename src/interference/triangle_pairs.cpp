@@ -58,7 +58,7 @@ bool collectCandidates(const WorkingFrame& frame, std::vector<std::pair<std::uin
   candidates.clear();
   stack.assign(1, {0U, 0U});
   while (!stack.empty()) {
-    if (limit.isOverNow() || !limit.makeRoom(stack, 2)) return false;
+    if (limit.isOverNow()) return false;
     const auto [index_a, index_b] = stack.back();
     stack.pop_back();
     const TriangleTree::Node& a = tree_a.nodes()[index_a];
@@ -67,7 +67,7 @@ bool collectCandidates(const WorkingFrame& frame, std::vector<std::pair<std::uin
     if (a.count > 0 && b.count > 0) {
       for (std::uint32_t i = a.first; i < a.first + a.count; ++i) {
         for (std::uint32_t j = b.first; j < b.first + b.count; ++j) {
-          if (!limit.makeRoom(candidates)) return false;
+          if (!limit.admits(candidates.size() + 1)) return false;
           candidates.push_back({tree_a.order()[i], tree_b.order()[j]});
         }
       }

@@ -194,26 +194,4 @@ void BodyMesh::prepareNiches(NormalSides sides) const {
   if (sides == NormalSides::Outside) dentedGroups();
 }
 
-std::size_t BodyMesh::memoryBytes() const {
-  const State& state = *state_;
-  const std::size_t topology_bytes =
-      topology().triangles_of_vertex.values.size() * sizeof(TriangleIndex) +
-      topology().neighbours_of_vertex.values.size() * sizeof(NodeIndex) +
-      surface().triangleCount() *
-          (3 * sizeof(TriangleIndex) + sizeof(std::uint32_t) + sizeof(Eigen::Vector3d)) +
-      surface().vertexCount() * (2 * sizeof(std::uint32_t) + sizeof(Eigen::Vector3d));
-  const BodyAttachment* attached = attachment();
-  const std::size_t attached_bytes = attached != nullptr ? attached->memoryBytes() : 0;
-  // A body that nobody has solved far from its origin is not made for its size.
-  const RecentredBody* moved = state.recentred.ifMade();
-  const std::size_t moved_bytes = moved != nullptr && moved->mesh ? moved->mesh->memoryBytes() : 0;
-  const RoundCore* core = state.core.ifMade();
-  const std::size_t core_bytes = core != nullptr && core->mesh ? core->mesh->memoryBytes() : 0;
-  return sizeof(BodyMesh) + sizeof(State) + surface().memoryBytes() + topology_bytes + attached_bytes +
-         moved_bytes + core_bytes + tree().memoryBytes() + hierarchy().memoryBytes() +
-         state.adjacency.memoryBytes() + state.shell_contacts.memoryBytes() + state.facets.memoryBytes() +
-         state.convex_shells.memoryBytes() + state.pieces.memoryBytes() + state.cones[0].memoryBytes() +
-         state.cones[1].memoryBytes();
-}
-
 }  // namespace concave_distance

@@ -127,13 +127,6 @@ ConvexShells::Shell shellOf(const BodyMesh& body, const Divider& divided, std::u
 
 }  // namespace
 
-std::size_t ConvexShells::memoryBytes() const {
-  std::size_t bytes = shells.capacity() * sizeof(Shell);
-  for (const Shell& shell : shells)
-    bytes += shell.mesh->memoryBytes() + shell.triangles.capacity() * sizeof(TriangleIndex);
-  return bytes;
-}
-
 ConvexShells findConvexShells(const BodyMesh& body) {
   ConvexShells found;
   const MeshTopology& topology = body.topology();

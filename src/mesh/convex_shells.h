@@ -17,8 +17,6 @@ struct ConvexShells {
     Eigen::Vector3d centre;                ///< inside, body frame, metres
   };
   std::vector<Shell> shells;  ///< empty: a shell is not convex up to rounding, or there are too many
-
-  std::size_t memoryBytes() const;
 };
 
 /// More shells than this are not looked at one by one.

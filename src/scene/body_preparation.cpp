@@ -35,7 +35,7 @@ BodyPreparation::BodyPreparation(const PreparationSettings& settings, WorkLimit:
 
 std::size_t BodyPreparation::placeOf(const BodyMesh& mesh) {
   const auto [found, is_new] = place_of_.emplace(&mesh, bodies_.size());
-  if (is_new) bodies_.push_back({&mesh, mesh.memoryBytes()});
+  if (is_new) bodies_.push_back({&mesh});
   return found->second;
 }
 
@@ -136,9 +136,6 @@ bool BodyPreparation::run() {
 void BodyPreparation::count(PreparationCounts& counts) const {
   counts.bodies = bodies_.size();
   for (const Body& body : bodies_) {
-    const std::size_t grown = body.mesh->memoryBytes() - body.bytes_before;
-    counts.memory_bytes += grown;
-    counts.made += grown > 0 ? 1 : 0;
     counts.left += body.is_left ? 1 : 0;
   }
 }

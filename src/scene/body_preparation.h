@@ -34,13 +34,12 @@ class BodyPreparation {
   void addAhead(const Scene& scene);
   /// @return true when nothing is left
   bool run();
-  /// Fills in what run() has done, and left.
+  /// Fills in what run() has looked at, and left.
   void count(PreparationCounts& counts) const;
 
  private:
   struct Body {
     const BodyMesh* mesh;
-    std::size_t bytes_before;
     bool needs_cones = false;  ///< of NormalSides::Outside
     bool needs_both_sides = false;
     bool needs_grid = false;

@@ -107,7 +107,7 @@ void TrackedPair::finish(WorkLimit::Clock::time_point end) {
     const double own = settings.tracker.time_budget - solution.solve_seconds;
     const Clock::time_point now = Clock::now();
     const double left = std::chrono::duration<double>(end - now).count();
-    updateEffects(left < own ? WorkLimit(now, left, settings.tracker.memory_limit, settings.tracker.stop)
+    updateEffects(left < own ? WorkLimit(now, left, settings.tracker.facet_pair_limit, settings.tracker.stop)
                              : remainingWork(settings.tracker, solution.solve_seconds));
     put_off = put_off || (left < own && effects.contacts()->cut);
   }

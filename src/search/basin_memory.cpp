@@ -25,8 +25,4 @@ std::uint32_t BasinMemory::addMinimum(const TrialPoint& minimum) {
   return index;
 }
 
-std::size_t BasinMemory::memoryBytes() const {
-  return minimum_of_pair_.memoryBytes() + minima_.capacity() * sizeof(TrialPoint);
-}
-
 }  // namespace concave_distance

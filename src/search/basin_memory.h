@@ -28,7 +28,6 @@ class BasinMemory {
   std::uint32_t addMinimum(const TrialPoint& minimum);
   /// Distinct local minima met this cycle, in order of discovery.
   const std::vector<TrialPoint>& minima() const { return minima_; }
-  std::size_t memoryBytes() const;
 
  private:
   static constexpr std::uint32_t kUsualPairsLog2 = 12;

@@ -18,7 +18,6 @@ class PairMetric {
   double distanceWithin(const TrialPoint& x, const TrialPoint& y, double bound);
   MeshMetricQuery& onA() { return a_.query(); }
   MeshMetricQuery& onB() { return b_.query(); }
-  std::size_t memoryBytes() const { return a_.memoryBytes() + b_.memoryBytes(); }
 
  private:
   struct Side {
@@ -29,7 +28,6 @@ class PairMetric {
       if (!made) made.emplace(gridOf(*body).metric());
       return *made;
     }
-    std::size_t memoryBytes() const { return made ? made->memoryBytes() : 0; }
   };
   Side a_;
   Side b_;

@@ -52,8 +52,6 @@ struct SearchWorkspace {
   std::vector<std::uint32_t> selected;
   std::vector<std::uint32_t> elites;
   std::vector<std::uint32_t> peaks;  ///< places of the niches that are conserved
-
-  std::size_t memoryBytes() const;  ///< of all buffers, the metric's cache included
 };
 
 }  // namespace concave_distance

@@ -43,11 +43,6 @@ double TrialPointTable::measure(std::uint32_t i, std::uint32_t j, PairMetric& me
   return static_cast<double>(measured);
 }
 
-std::size_t TrialPointTable::memoryBytes() const {
-  return place_of_pair_.memoryBytes() + points_.capacity() * sizeof(TrialPoint) +
-         delta_.capacity() * sizeof(float);
-}
-
 void Census::take(const std::vector<std::uint32_t>& population_places, std::size_t place_count) {
   for (const std::uint32_t place : places) {
     if (place < entry_of_place.size()) {
@@ -81,10 +76,6 @@ void Census::move(std::uint32_t from, std::uint32_t to, std::size_t place_count)
   entry_of_place[to] = static_cast<std::uint32_t>(places.size());
   places.push_back(to);
   counts.push_back(1);
-}
-
-std::size_t Census::memoryBytes() const {
-  return (places.capacity() + counts.capacity() + entry_of_place.capacity()) * sizeof(std::uint32_t);
 }
 
 void nichePeaks(const Census& census, double niche_radius, TrialPointTable& places, PairMetric& metric,

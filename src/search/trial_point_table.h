@@ -45,7 +45,6 @@ class TrialPointTable {
     }
     return measure(i, j, metric);
   }
-  std::size_t memoryBytes() const;
 
  private:
   // Distances between the first places are kept: 2 MB. A run that meets more computes the others each time.
@@ -77,7 +76,6 @@ struct Census {
   void take(const std::vector<std::uint32_t>& population_places, std::size_t place_count);
   /// One individual has moved from its place to one where nobody stood. O(1).
   void move(std::uint32_t from, std::uint32_t to, std::size_t place_count);
-  std::size_t memoryBytes() const;
 };
 
 /// Greedy niche identification (Carretero, sec. 4.6.4) on places: the best one, all within `niche_radius`

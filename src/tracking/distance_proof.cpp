@@ -114,8 +114,4 @@ void DistanceProof::clear() {
   has_last_ = current_ = swallowed_ = false;
 }
 
-std::size_t DistanceProof::memoryBytes() const {
-  return workspace_.open.capacity() * sizeof(CertificateWorkspace::OpenPair) + front_.memoryBytes();
-}
-
 }  // namespace concave_distance

@@ -34,7 +34,6 @@ class DistanceProof {
   void clear();
   /// Has the next proof made even where nothing has moved.
   void renew() { current_ = false; }
-  std::size_t memoryBytes() const;
 
  private:
   CertificateWorkspace workspace_;

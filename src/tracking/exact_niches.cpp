@@ -246,10 +246,4 @@ void ExactNiches::clear() {
   offered_ = nullptr;
 }
 
-std::size_t ExactNiches::memoryBytes() const {
-  return memory_.memoryBytes() + found_.niches.capacity() * sizeof(LocalMinimum) +
-         (followed_.capacity() + request_.proposals.capacity()) * sizeof(MinimumCandidate) +
-         next_.capacity() * sizeof(NicheRecord) + heirs_.capacity() * sizeof(std::size_t);
-}
-
 }  // namespace concave_distance

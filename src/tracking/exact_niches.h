@@ -68,7 +68,6 @@ class ExactNiches {
 
   void clear();
   void renew() { current_ = false; }
-  std::size_t memoryBytes() const;
 
  private:
   void matchPrevious(const NicheArchive& archive, const PairFrame& frame,

@@ -33,9 +33,6 @@ struct NicheBasis {
     niches.clear();
     search.restart();
   }
-  std::size_t memoryBytes() const {
-    return archive.records().capacity() * sizeof(NicheRecord) + niches.memoryBytes() + search.memoryBytes();
-  }
 
   std::shared_ptr<const BodyMesh> a;
   std::shared_ptr<const BodyMesh> b;

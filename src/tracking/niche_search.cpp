@@ -107,9 +107,4 @@ void NicheSearch::earn(std::size_t found, double work, double share) {
   last_population_ = 0;
 }
 
-std::size_t NicheSearch::memoryBytes() const {
-  return workspace_.memoryBytes() + (inherited_.capacity() + found_.capacity()) * sizeof(TrialPoint) +
-         scratch_.capacity() * sizeof(double);
-}
-
 }  // namespace concave_distance

@@ -72,7 +72,6 @@ class NicheSearch {
   NodeRings& rings() { return rings_; }
   const NicheRadii& radii(bool warm) const { return warm ? warm_radii_ : cold_radii_; }
   void restart() { couples_ = 1; }
-  std::size_t memoryBytes() const;
 
  private:
   Search search_;  ///< empty: geneticSearch()

@@ -89,6 +89,15 @@ void answerByNearest(const PairFrame& frame, const std::vector<NicheRecord>& rec
   }
 }
 
+void answerByVertices(const TrackerParameters& parameters, const BodyMesh& a, const BodyMesh& b,
+                      const Eigen::Isometry3d& a_from_b, PairSolution& solution) {
+  solution.accuracy = AccuracyLevel::Nodes;
+  if (provesDistance(parameters.accuracy)) solution.lower_bound = 0.0;
+  solution.point_a_in_a = a.surface().vertex(NodeIndex{0});
+  solution.point_b_in_a = a_from_b * b.surface().vertex(NodeIndex{0});
+  solution.distance = (solution.point_b_in_a - solution.point_a_in_a).norm();
+}
+
 bool hasMissedNiche(const std::vector<TrackedNiche>& niches) {
   return std::any_of(niches.begin(), niches.end(), [](const TrackedNiche& niche) {
     return niche.origin == NicheOrigin::FromCones || niche.origin == NicheOrigin::Proven;

@@ -29,6 +29,10 @@ void listNiches(const TrackerParameters& parameters, std::vector<NicheRecord>& r
 void answerByNearest(const PairFrame& frame, const std::vector<NicheRecord>& records,
                      const MinimumCandidate* known, bool is_round, PairSolution& solution, WorkLimit& limit);
 
+/// Brackets the distance by a vertex of each body, where nothing is known and nothing can be allocated.
+void answerByVertices(const TrackerParameters& parameters, const BodyMesh& a, const BodyMesh& b,
+                      const Eigen::Isometry3d& a_from_b, PairSolution& solution);
+
 /// Returns whether a niche was neither known nor proposed by the search, at a level that proves.
 bool hasMissedNiche(const std::vector<TrackedNiche>& niches);
 

@@ -35,13 +35,13 @@ PairCycle::PairCycle(std::string name, std::shared_ptr<const BodyMesh> a, std::s
 
 void PairCycle::update(const Eigen::Isometry3d& pose, double time, PairSolution& solution, bool is_tracked) {
   const auto start = WorkLimit::Clock::now();
-  limit_ = WorkLimit(start, stages_.parameters().time_budget, stages_.parameters().memory_limit,
+  limit_ = WorkLimit(start, stages_.parameters().time_budget, stages_.parameters().facet_pair_limit,
                      stages_.parameters().stop);
   stages_.cycle().ends_first = false;
   if (begin(pose, time, solution, is_tracked)) {
     if (proves()) {
       limit_.allowShare(wantsNiches() ? kShareOfProof : 1.0);
-      stages_.prove(solution, limit_);
+      prove(solution);
     }
     if (wantsNiches()) stages_.findNiches(solution, limit_);
     report(solution);
@@ -57,11 +57,11 @@ bool PairCycle::prove(const Eigen::Isometry3d& pose, double time, PairSolution& 
   const double left = seconds(cycle_end - start);
   stages_.cycle().ends_first = left < own;
   limit_ =
-      WorkLimit(start, std::min(own, left), stages_.parameters().memory_limit, stages_.parameters().stop);
+      WorkLimit(start, std::min(own, left), stages_.parameters().facet_pair_limit, stages_.parameters().stop);
   if (stages_.cycle().ends_first && !was_cut_) limit_.expectEnough();
   bool is_to_go_on = begin(pose, time, solution, true);
   if (is_to_go_on) {
-    if (proves()) stages_.prove(solution, limit_);
+    if (proves()) prove(solution);
     is_proof_cut_ = limit_.hasRefused();
     is_to_go_on = wantsNiches();
     if (proves()) reportAlone(solution);
@@ -77,16 +77,20 @@ bool PairCycle::prove(const Eigen::Isometry3d& pose, double time, PairSolution& 
   return is_to_go_on;
 }
 
+void PairCycle::prove(PairSolution& solution) {
+  stages_.prove(solution, limit_);
+  is_proof_made_ = true;
+}
+
 bool PairCycle::addNiches(PairSolution& solution, WorkLimit::Clock::time_point cycle_end) {
   const auto start = WorkLimit::Clock::now();
   const double own = stages_.parameters().time_budget - solution.solve_seconds;
   const double left = seconds(cycle_end - start);
   stages_.cycle().ends_first = left < own;
   limit_ = stages_.cycle().ends_first
-               ? WorkLimit(start, left, stages_.parameters().memory_limit, stages_.parameters().stop)
+               ? WorkLimit(start, left, stages_.parameters().facet_pair_limit, stages_.parameters().stop)
                : remainingWork(stages_.parameters(), solution.solve_seconds);
   if (stages_.cycle().ends_first && !was_cut_) limit_.expectEnough();
-  limit_.setTaken(memoryBytes());
   beginSecondHalf(solution);
   stages_.findNiches(solution, limit_);
   report(solution);
@@ -123,6 +127,17 @@ void PairCycle::putOffNiches(PairSolution& solution) {
   solution.solve_seconds += secondsSince(start);
 }
 
+void PairCycle::endWithoutMemory(PairSolution& solution) const {
+  clearAnswer(stages_.parameters(), stages_.cycle().number, isWarm(), solution);
+  if (is_proof_made_) {
+    reportAlone(solution);
+  } else {
+    answerByVertices(stages_.parameters(), stages_.a(), stages_.b(), now_.pose, solution);
+  }
+  if (solution.status != SolveStatus::Penetrating) solution.status = SolveStatus::MemoryExhausted;
+  padSolution(stages_.parameters(), solution);
+}
+
 // The answer of the first half is in the frame that A was modelled in, and is given again.
 void PairCycle::beginSecondHalf(PairSolution& solution) {
   const StageTimes stages = solution.stages;
@@ -133,8 +148,7 @@ void PairCycle::beginSecondHalf(PairSolution& solution) {
 
 // Takes what both halves of a cycle need. Returns false for a pose that is not rigid.
 bool PairCycle::begin(const Eigen::Isometry3d& pose, double time, PairSolution& solution, bool is_tracked) {
-  limit_.setTaken(memoryBytes());
-  is_proof_cut_ = false;
+  is_proof_made_ = is_proof_cut_ = false;
   clearAnswer(stages_.parameters(), stages_.cycle().number, isWarm(), solution);
   solution.a_from_b = pose;
   const std::optional<Eigen::Isometry3d> rigid = rigidPose(pose);
@@ -201,7 +215,7 @@ void PairCycle::report(PairSolution& solution) {
   reportCompleteness(solution);
 }
 
-void PairCycle::reportAlone(PairSolution& solution) {
+void PairCycle::reportAlone(PairSolution& solution) const {
   stages_.proof().report(solution);
   if (stages_.proof().isSwallowed() && !stages_.parameters().keep_through_material) return;
   NicheRecord nearest;
@@ -225,7 +239,7 @@ void PairCycle::reportCompleteness(PairSolution& solution) const {
   const bool all = stages_.hasAllNiches() && !is_cut;
   solution.niches_complete = proves() && stages_.parameters().niches_wanted && all && !solution.niches_cut;
   if (!limit_.hasRefused() || solution.status == SolveStatus::Penetrating) return;
-  if (stages_.cycle().ends_first && proves() && !limit_.hasRefusedMemory()) return;
+  if (stages_.cycle().ends_first && proves() && !limit_.hasRefusedPairs()) return;
   solution.status = limit_.hasRefusedTime() ? SolveStatus::BudgetExhausted : SolveStatus::MemoryExhausted;
 }
 
@@ -249,11 +263,6 @@ void PairCycle::setParameters(const TrackerParameters& parameters) {
   stages_.setParameters(parameters);
   if (changes_niches || (wantsNiches() && !last_niches_.known)) reset();
   stages_.renew();
-}
-
-std::size_t PairCycle::memoryBytes() const {
-  return sizeof(PairCycle) + stages_.memoryBytes() + carried_.capacity() * sizeof(NicheRecord) +
-         signed_values_.memoryBytes();
 }
 
 }  // namespace concave_distance

@@ -27,6 +27,16 @@ class PairCycle {
              WorkLimit::Clock::time_point cycle_end);
   bool addNiches(PairSolution& solution, WorkLimit::Clock::time_point cycle_end);
   void putOffNiches(PairSolution& solution);
+  /// Answers after std::bad_alloc: by the proof, where that is made, or by a vertex of each body. Nothing
+  /// else may be asked for afterwards but what a new cycle goes on with.
+  void endWithoutMemory(PairSolution& solution) const;
+  std::uint64_t number() const { return stages_.cycle().number; }
+  std::uint64_t takeId() { return stages_.takeId(); }
+  /// Goes on after a cycle that has ended so.
+  void goOn(std::uint64_t number, std::uint64_t largest_used_id) {
+    stages_.cycle().number = number;
+    stages_.beginIdsAfter(largest_used_id);
+  }
   /// Solves at one pose alone.
   void solve(const Eigen::Isometry3d& pose, PairSolution& solution);
   /// Makes what the first cycle would make otherwise.
@@ -39,7 +49,6 @@ class PairCycle {
   NicheSearch& search() { return stages_.search(); }
   const std::string& name() const { return stages_.name(); }
   const TrackerParameters& parameters() const { return stages_.parameters(); }
-  std::size_t memoryBytes() const;
 
  private:
   struct Moment {
@@ -52,8 +61,9 @@ class PairCycle {
   bool begin(const Eigen::Isometry3d& pose, double time, PairSolution& solution, bool is_tracked);
   void beginSecondHalf(PairSolution& solution);
   void end(PairSolution& solution);
+  void prove(PairSolution& solution);
   void report(PairSolution& solution);
-  void reportAlone(PairSolution& solution);
+  void reportAlone(PairSolution& solution) const;
   bool hasMissedNearest(const PairSolution& solution) const;
   void reportCompleteness(PairSolution& solution) const;
   bool proves() const { return stages_.proves(); }
@@ -62,7 +72,8 @@ class PairCycle {
 
   PairStages stages_;
   std::uint64_t largest_used_id_;
-  bool is_proof_cut_ = false;         ///< in the first half of the present cycle
+  bool is_proof_made_ = false;        ///< in the present cycle
+  bool is_proof_cut_ = false;         ///< likewise, in its first half
   bool was_cut_ = true;               ///< by the end of a cycle, when it last had time; or it never had
   std::vector<NicheRecord> carried_;  ///< of putOffNiches()
   Moment now_;

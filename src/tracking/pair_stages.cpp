@@ -236,9 +236,4 @@ void PairStages::renew() {
   }
 }
 
-std::size_t PairStages::memoryBytes() const {
-  return meshes_.memoryBytes() + (cores_ != nullptr ? cores_->memoryBytes() : 0) +
-         known_.capacity() * sizeof(TrialPoint) + proof_.memoryBytes() + round_.memoryBytes();
-}
-
 }  // namespace concave_distance

@@ -58,12 +58,15 @@ class PairStages {
 
   void reset();
   void beginIdsAfter(std::uint64_t id);
+  /// Returns an id that no niche has had.
+  std::uint64_t takeId() { return std::max(meshes_.archive.takeId(), round_.takeId()); }
   /// @throws Error for parameters out of range, and then keeps those before
   void setParameters(const TrackerParameters& parameters);
   /// Makes the next cycle go by the parameters even where the pair has not moved.
   void renew();
 
   const std::string& name() const { return name_; }
+  const BodyMesh& a() const { return *a_; }
   const BodyMesh& b() const { return *b_; }
   const TrackerParameters& parameters() const { return parameters_; }
   const PairFrame& frame() const { return *frame_; }
@@ -85,7 +88,6 @@ class PairStages {
   bool isPairOfShapes() const { return isExact() && a_->shape() != nullptr && b_->shape() != nullptr; }
   /// Returns the proven distance of the cycle before; NaN: there is none.
   double distanceBefore() const { return distance_before_; }
-  std::size_t memoryBytes() const;
 
  private:
   void solveNodes(const Passed& passed, PairSolution& solution, WorkLimit& limit);

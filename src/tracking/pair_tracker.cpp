@@ -4,10 +4,13 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include <new>
 #include <optional>
 #include <utility>
 
 #include "concave_distance/base/error.h"
+#include "padded_solution.h"
+#include "pair_answer.h"
 #include "pair_cycle.h"
 #include "recentred_pair.h"
 #include "require_bodies.h"
@@ -21,26 +24,71 @@ constexpr std::size_t kPosesOfOneTracker = 16;
 }  // namespace
 
 struct PairTracker::State {
-  State(std::string name, const std::shared_ptr<const BodyMesh>& a, const std::shared_ptr<const BodyMesh>& b,
-        const TrackerParameters& parameters, std::uint64_t largest_used_id)
-      : bodies(a, b),
-        cycle(std::move(name), bodies.a(), bodies.b(), parameters, largest_used_id, bodies.poseError()) {}
-
-  /// Calls solve(pose) with the pose of the bodies as they are solved.
-  template <typename Solve>
-  void solveRecentred(const Eigen::Isometry3d& a_from_b, PairSolution& solution, const Solve& solve) const {
-    const std::optional<Eigen::Isometry3d> pose = bodies.isMoved() ? bodies.poseOf(a_from_b) : std::nullopt;
-    solve(pose ? *pose : a_from_b);
-    if (pose) bodies.moveBack(a_from_b, solution);
+  State(std::string of, const std::shared_ptr<const BodyMesh>& a, const std::shared_ptr<const BodyMesh>& b,
+        const TrackerParameters& parameters, std::uint64_t largest_id)
+      : name(std::move(of)),
+        bodies(a, b),
+        kept(parameters),
+        largest_used_id(largest_id),
+        last_id(largest_id) {
+    current();
   }
 
-  /// Moves a solution whose pose is known to be rigid.
-  void moveBack(PairSolution& solution) const {
+  /// Returns the cycle; where the last one has run out of memory, a new one that goes on after it.
+  PairCycle& current() {
+    if (!cycle) {
+      cycle.emplace(name, bodies.a(), bodies.b(), kept, largest_used_id, bodies.poseError());
+      cycle->goOn(number, last_id);
+    }
+    return *cycle;
+  }
+
+  /// Calls solve(), and ends what runs out of memory in it: what it leaves may be half made, and is freed.
+  /// @param pose of the bodies as they are solved
+  template <typename Solve>
+  void solveWithin(const Eigen::Isometry3d& pose, PairSolution& solution, const Solve& solve) {
+    try {
+      solve(current());
+    } catch (const std::bad_alloc&) {
+      if (cycle) {
+        cycle->endWithoutMemory(solution);
+        kept = cycle->parameters();
+        number = cycle->number() + 1;
+        last_id = cycle->takeId();
+        cycle.reset();
+      } else {
+        clearAnswer(kept, number, false, solution);
+        solution.a_from_b = pose;
+        answerByVertices(kept, *bodies.a(), *bodies.b(), pose, solution);
+        solution.status = SolveStatus::MemoryExhausted;
+        padSolution(kept, solution);
+      }
+    }
+  }
+
+  /// Calls solve(cycle, pose) with the pose of the bodies as they are solved.
+  template <typename Solve>
+  void solveRecentred(const Eigen::Isometry3d& a_from_b, PairSolution& solution, const Solve& solve) {
+    const std::optional<Eigen::Isometry3d> moved = bodies.isMoved() ? bodies.poseOf(a_from_b) : std::nullopt;
+    const Eigen::Isometry3d& pose = moved ? *moved : a_from_b;
+    solveWithin(pose, solution, [&](PairCycle& now) { solve(now, pose); });
+    if (moved) bodies.moveBack(a_from_b, solution);
+  }
+
+  /// Goes on with a solution whose pose is known to be rigid.
+  template <typename Solve>
+  void solveOn(PairSolution& solution, const Solve& solve) {
+    solveWithin(solution.a_from_b, solution, solve);
     if (bodies.isMoved()) bodies.moveBack(Eigen::Isometry3d(solution.a_from_b), solution);
   }
 
+  std::string name;
   RecentredPair bodies;
-  PairCycle cycle;
+  TrackerParameters kept;         ///< while there is no cycle
+  std::uint64_t largest_used_id;  ///< before the first cycle
+  std::uint64_t last_id;          ///< before the next cycle that is made
+  std::uint64_t number = 0;       ///< of that one
+  std::optional<PairCycle> cycle;
 };
 
 // Users build on this signature. NOLINTBEGIN(performance-unnecessary-value-param)
@@ -61,42 +109,38 @@ PairTracker::State& PairTracker::state() const {
 }
 
 void PairTracker::update(const Eigen::Isometry3d& a_from_b, double time, PairSolution& solution) {
-  State& state = this->state();
-  state.solveRecentred(a_from_b, solution,
-                       [&](const Eigen::Isometry3d& pose) { state.cycle.update(pose, time, solution); });
+  state().solveRecentred(a_from_b, solution, [&](PairCycle& cycle, const Eigen::Isometry3d& pose) {
+    cycle.update(pose, time, solution);
+  });
 }
 
 bool PairTracker::prove(const Eigen::Isometry3d& a_from_b, double time, PairSolution& solution,
                         WorkLimit::Clock::time_point cycle_end) {
-  State& state = this->state();
   bool is_to_go_on = false;
-  state.solveRecentred(a_from_b, solution, [&](const Eigen::Isometry3d& pose) {
-    is_to_go_on = state.cycle.prove(pose, time, solution, cycle_end);
+  state().solveRecentred(a_from_b, solution, [&](PairCycle& cycle, const Eigen::Isometry3d& pose) {
+    is_to_go_on = cycle.prove(pose, time, solution, cycle_end);
   });
   return is_to_go_on;
 }
 
 bool PairTracker::addNiches(PairSolution& solution, WorkLimit::Clock::time_point cycle_end) {
-  State& state = this->state();
-  const bool is_done = state.cycle.addNiches(solution, cycle_end);
-  state.moveBack(solution);
+  bool is_done = true;
+  state().solveOn(solution, [&](PairCycle& cycle) { is_done = cycle.addNiches(solution, cycle_end); });
   return is_done;
 }
 
 void PairTracker::putOffNiches(PairSolution& solution) {
-  State& state = this->state();
-  state.cycle.putOffNiches(solution);
-  state.moveBack(solution);
+  state().solveOn(solution, [&](PairCycle& cycle) { cycle.putOffNiches(solution); });
 }
 
 void PairTracker::solve(const Eigen::Isometry3d& a_from_b, PairSolution& solution) {
-  State& state = this->state();
-  state.solveRecentred(a_from_b, solution,
-                       [&](const Eigen::Isometry3d& pose) { state.cycle.solve(pose, solution); });
+  state().solveRecentred(a_from_b, solution, [&](PairCycle& cycle, const Eigen::Isometry3d& pose) {
+    cycle.solve(pose, solution);
+  });
 }
 
 void PairTracker::prepare(const std::vector<Eigen::Isometry3d>& a_from_b) {
-  state().cycle.prepare();
+  state().current().prepare();
   PairSolution solution;
   double time = 0.0;
   for (const Eigen::Isometry3d& pose : a_from_b) update(pose, time += 1.0, solution);
@@ -104,27 +148,23 @@ void PairTracker::prepare(const std::vector<Eigen::Isometry3d>& a_from_b) {
 }
 
 void PairTracker::reset() {
-  state().cycle.reset();
+  state().current().reset();
 }
 
 void PairTracker::restart() {
-  state().cycle.restart();
+  state().current().restart();
 }
 
 void PairTracker::holdSearch(bool is_held) {
-  state().cycle.holdSearch(is_held);
+  state().current().holdSearch(is_held);
 }
 
 void PairTracker::setParameters(const TrackerParameters& parameters) {
-  state().cycle.setParameters(parameters);
-}
-
-std::size_t PairTracker::memoryBytes() const {
-  return state().cycle.memoryBytes();
+  state().current().setParameters(parameters);
 }
 
 const TrackerParameters& PairTracker::parameters() const {
-  return state().cycle.parameters();
+  return state().cycle ? state().cycle->parameters() : state().kept;
 }
 
 PairSolution solveOnce(const std::string& name, const std::shared_ptr<const BodyMesh>& a,

@@ -177,10 +177,4 @@ void RoundNiches::clear() {
   members_.clear();
 }
 
-std::size_t RoundNiches::memoryBytes() const {
-  return (archive_.records().capacity() + next_.capacity()) * sizeof(NicheRecord) +
-         members_.capacity() * sizeof(Member) + next_index_.capacity() * sizeof(std::size_t) +
-         mesh_ids_.capacity() * sizeof(std::uint64_t);
-}
-
 }  // namespace concave_distance

@@ -22,6 +22,7 @@ class RoundNiches {
   };
 
   void beginIdsAfter(std::uint64_t id) { archive_.beginIdsAfter(id); }
+  std::uint64_t takeId() { return archive_.takeId(); }
   /// Returns how much farther than the solids their meshes may be, metres.
   static double meshExcess(const PairFrame& frame);
 
@@ -37,7 +38,6 @@ class RoundNiches {
   void clear();
   /// Says that the next niches of the meshes are others: ids then go on by place.
   void forgetMeshNiches() { members_.clear(); }
-  std::size_t memoryBytes() const;
 
  private:
   /// A niche of the meshes and the exact one that it has come to.

@@ -172,12 +172,4 @@ void SignedValues::keepAges(const Cycle& cycle, double rounding, PairSolution& s
   before_.swap(now_);
 }
 
-std::size_t SignedValues::memoryBytes() const {
-  return search_.memoryBytes() + values_.capacity() * sizeof(SignedPlace) +
-         (before_.capacity() + now_.capacity()) * sizeof(Known) +
-         overlap_.regions.capacity() * sizeof(InterferenceRegion) +
-         overlap_.facets.capacity() * sizeof(OverlapFacet) +
-         overlap_.samples.capacity() * sizeof(OverlapSample);
-}
-
 }  // namespace concave_distance

@@ -25,7 +25,6 @@ class SignedValues {
     before_.clear();
     has_regions_ = false;
   }
-  std::size_t memoryBytes() const;
 
  private:
   struct Known {

@@ -5,7 +5,7 @@
 namespace concave_distance {
 namespace {
 
-constexpr double kLeastMemory = 1048576.0;  // bytes, smaller than the first buffers of a pair
+constexpr double kLeastFacetPairs = 1000.0;  // a pair of simple bodies needs no more
 
 using T = TrackerParameters;
 
@@ -69,10 +69,11 @@ ParameterTable<T> ofTheNiches() {
 ParameterTable<T> expertParameters() {
   return {
       count<T>(
-          "memory_limit", [](auto& t) -> auto& { return t.memory_limit; },
-          "working memory for the solve of one pair; a solve that needs more ends with the results so far")
-          .inUnit("bytes")
-          .from(kLeastMemory),
+          "facet_pair_limit", [](auto& t) -> auto& { return t.facet_pair_limit; },
+          "facet pairs that a stage of a pair's solve may hold at once, at most 250 bytes each; a solve that "
+          "needs "
+          "more ends with the results so far")
+          .from(kLeastFacetPairs),
       limit<T>(
           "prominence_limit", [](auto& t) -> auto& { return t.prominence_limit; },
           "prominences are measured up to this; `none`: all below the cutoff"),

@@ -25,7 +25,8 @@ void TrackerParameters::validate(const std::string& where) const {
 WorkLimit remainingWork(const TrackerParameters& parameters, double seconds_spent) {
   const auto spent =
       std::chrono::duration_cast<WorkLimit::Clock::duration>(std::chrono::duration<double>(seconds_spent));
-  return {WorkLimit::Clock::now() - spent, parameters.time_budget, parameters.memory_limit, parameters.stop};
+  return {WorkLimit::Clock::now() - spent, parameters.time_budget, parameters.facet_pair_limit,
+          parameters.stop};
 }
 
 }  // namespace concave_distance

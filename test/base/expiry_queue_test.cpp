@@ -29,14 +29,11 @@ TEST(ExpiryQueues, TakeOutWhatTheirCounterHasReachedAndNothingElse) {
       all.push_back({counter, expiry, true});
     }
     now[counter] += uniformIndex(engine, std::uint32_t{1} << uniformIndex(engine, 24));
-    queues.advance(
-        counter, now[counter],
-        [&](std::uint64_t key) {
-          EXPECT_TRUE(all[key].is_in);
-          EXPECT_EQ(all[key].counter, counter);
-          all[key].is_in = false;
-        },
-        none);
+    queues.advance(counter, now[counter], [&](std::uint64_t key) {
+      EXPECT_TRUE(all[key].is_in);
+      EXPECT_EQ(all[key].counter, counter);
+      all[key].is_in = false;
+    });
     std::size_t count = 0;
     for (std::size_t i = 0; i < all.size(); ++i) {
       ASSERT_EQ(all[i].is_in, all[i].expiry > now[all[i].counter]) << i;
@@ -60,35 +57,25 @@ TEST(ExpiryQueues, KeepTheLargestExpiryAndForgetAllWhenBegunAnew) {
   queues.insert(0, 1, 11, none);
   std::vector<std::uint64_t> expired;
   const auto take = [&](std::uint64_t key) { expired.push_back(key); };
-  queues.advance(0, std::uint64_t{1} << 62U, take, none);
+  queues.advance(0, std::uint64_t{1} << 62U, take);
   EXPECT_EQ(expired, std::vector<std::uint64_t>{11});
   queues.begin(1);
-  queues.advance(0, ~std::uint64_t{0}, take, none);
+  queues.advance(0, ~std::uint64_t{0}, take);
   EXPECT_EQ(expired.size(), 1U);
 }
 
-TEST(ExpiryQueues, WithoutMemoryTakeOutTooMuchRatherThanTooLittle) {
+TEST(ExpiryQueues, HoldAsManyEntriesAsTheLimitAdmits) {
   ExpiryQueues<std::uint64_t> queues;
-  queues.begin(1);
-  WorkLimit limit(WorkLimit::Clock::now(), 1e12, 4096, nullptr);
-  std::vector<std::uint64_t> expiries;
-  RandomEngine engine(6);
-  while (true) {
-    const std::uint64_t expiry = 1 + uniformIndex(engine, 1U << 31U);
-    if (!queues.insert(0, expiry, expiries.size(), limit)) break;
-    expiries.push_back(expiry);
-  }
-  EXPECT_TRUE(limit.hasRefusedMemory());
-  std::vector<bool> is_out(expiries.size(), false);
-  for (std::uint64_t now = 0; now < (std::uint64_t{1} << 31U); now += std::uint64_t{1} << 26U) {
-    queues.advance(
-        0, now, [&](std::uint64_t key) { is_out[key] = true; }, limit);
-    for (std::size_t i = 0; i < expiries.size(); ++i) {
-      if (expiries[i] <= now) {
-        EXPECT_TRUE(is_out[i]);
-      }
-    }
-  }
+  queues.begin(2);
+  WorkLimit limit(WorkLimit::Clock::now(), 1e12, 100, nullptr);
+  for (std::uint64_t key = 0; key < 100; ++key)
+    ASSERT_TRUE(queues.insert(key % 2, 1 + 17 * key, key, limit)) << key;
+  EXPECT_FALSE(limit.hasRefused());
+  EXPECT_FALSE(queues.insert(0, 5, 100, limit));
+  EXPECT_TRUE(limit.hasRefusedPairs());
+  EXPECT_EQ(queues.size(), 100U);
+  queues.advance(0, 1, [](std::uint64_t key) { EXPECT_EQ(key, 0U); });
+  EXPECT_TRUE(queues.insert(0, 5, 100, limit)) << "one has gone";
 }
 
 }  // namespace

@@ -51,15 +51,5 @@ TEST(PairTable, KeepsTheFirstNumberOfEachPairUntilItIsCleared) {
   }
 }
 
-TEST(PairTable, GrowsOnlyAsFarAsTheMemoryLimitAllows) {
-  WorkLimit limit(WorkLimit::Clock::now(), std::numeric_limits<double>::infinity(), 1024, nullptr);
-  PairTable table(4);
-  std::uint32_t count = 0;
-  for (; count < 1000 && table.makeRoom(limit); ++count) table.insert(NodeIndex{count}, NodeIndex{0}, count);
-  EXPECT_EQ(count, 16U);
-  EXPECT_TRUE(limit.hasRefusedMemory());
-  EXPECT_EQ(table.find(NodeIndex{15}, NodeIndex{0}), 15U);
-}
-
 }  // namespace
 }  // namespace concave_distance::pair_key_test

@@ -200,7 +200,7 @@ Witnesses byEvolution(const Instant& at, const Mesh& b, std::uint64_t seed, Cloc
       known.push_back(search.descendKnown(frame, all[(cycle * heirs + i) % all.size()], cost));
     }
     WorkLimit limit(Clock::now(), std::chrono::duration<double>(end - Clock::now()).count(),
-                    parameters.memory_limit, nullptr);
+                    parameters.facet_pair_limit, nullptr);
     const NicheSearch::Run run{name, cycle, true, false, true};
     const auto& proposed = search.propose(frame, parameters, known, run, cost, limit);
     all.insert(all.end(), proposed.begin(), proposed.end());

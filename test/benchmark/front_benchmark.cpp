@@ -16,7 +16,7 @@
 // floods alone and of what is kept (and its 99th percentile); means of niches, of ripples settled by a known
 // path, links of paths that were given other points, niches by a known border and by one that was mended,
 // floods, cells flooded and border elements measured; instants at which the niches were others than those of
-// floods (`other`); kilobytes kept.
+// floods (`other`).
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
@@ -95,7 +95,6 @@ struct Sample {
   double cells = 0.0;
   double measured = 0.0;
   int other = 0;
-  std::size_t bytes = 0;
 };
 
 /// Features that begin or cease to hold a minimum: what no way to keep anything could spare.
@@ -146,7 +145,6 @@ void judge(const detail::PairFrame& frame, std::vector<MinimumCandidate> candida
   sample.floods += counts.searches;
   sample.cells += counts.visited_pairs;
   sample.measured += counts.measured;
-  sample.bytes = std::max(sample.bytes, decider.memoryBytes());
 }
 
 void observe(const BenchmarkPair& pair, const Eigen::Isometry3d& pose, MinimaTracker& front,
@@ -207,7 +205,7 @@ int benchmarkMain(int argc, char** argv) {
       output,
       "pair,steps,fcl_us,roots_us,front_us,front_99_us,front_over_fcl,kept,expired,groups,features,"
       "live,seeds,events,anew,missed,more,floods_us,judge_us,judge_99_us,niches,by_path,aimed,"
-      "by_border,mended,floods,cells,measured,other,kilobytes");
+      "by_border,mended,floods,cells,measured,other");
   if (!files.empty()) names = files;
   for (const std::string& name : names) {
     const BenchmarkPair pair = files.empty() ? loadBenchmarkPair(name) : makeCirclingPair(name);
@@ -229,7 +227,7 @@ int benchmarkMain(int argc, char** argv) {
                 sample.anew, sample.missed, sample.more, median(sample.floods_us), median(sample.judge_us),
                 percentile(sample.judge_us, 0.99), sample.niches / n, sample.by_path / n, sample.aimed / n,
                 sample.by_border / n, sample.mended / n, sample.floods / n, sample.cells / n,
-                sample.measured / n, sample.other, sample.bytes / 1024);
+                sample.measured / n, sample.other);
     }
   }
   return 0;

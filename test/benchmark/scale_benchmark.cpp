@@ -4,10 +4,9 @@
 //   scale_benchmark [--sizes 1000,10000,100000,1000000] [--steps 200] [--output doc/results/scale.csv]
 //
 // A row is a size: triangles of each body; seconds to make both bodies ready, with all threads and with
-// one; bytes a triangle of the hierarchy, of its tree and of the whole body; median microseconds of the
-// proven distance cold, seeded and with a front, of FCL's plain distance, and of a warm cycle with all niches
-// at level `certified` (seeded and front along 200 steps of a tenth of a diameter in all); the greatest
-// memory the process has used so far, megabytes.
+// one; median microseconds of the proven distance cold, seeded and with a front, of FCL's plain distance, and
+// of a warm cycle with all niches at level `certified` (seeded and front along 200 steps of a tenth of a
+// diameter in all); the greatest memory the process has used so far, megabytes.
 #include <sys/resource.h>
 #include <tbb/global_control.h>
 
@@ -83,7 +82,6 @@ void run(std::size_t size, int steps, ResultTable& table) {
   Body a;
   Body b;
   buildBoth(surface, BodyMeshOptions(), a, b);
-  const auto triangles = static_cast<double>(surface.triangleCount());
 
   CertificateWorkspace workspace;
   TrianglePair closest{};
@@ -109,11 +107,7 @@ void run(std::size_t size, int steps, ResultTable& table) {
   const double fcl = medianMicroseconds(
       steps, [&](const auto& pose, int) { (void)fclDistance(*fcl_model, *fcl_model, pose); });
 
-  const double hierarchy = static_cast<double>(a->hierarchy().memoryBytes()) / triangles;
-  const double tree = static_cast<double>(a->tree().memoryBytes()) / triangles;
-  const double body = static_cast<double>(a->memoryBytes()) / triangles;
-  table.add(surface.triangleCount(), build.parallel, hierarchy, tree, body, fcl, cold, seeded, kept, tracked,
-            peak, build.serial);
+  table.add(surface.triangleCount(), build.parallel, fcl, cold, seeded, kept, tracked, peak, build.serial);
 }
 
 }  // namespace
@@ -129,10 +123,9 @@ int benchmarkMain(int argc, char** argv) {
   app.add_option("--steps", steps, "Instants along the motion")->check(CLI::PositiveNumber);
   app.add_option("--output", output, "CSV file to write");
   CLI11_PARSE(app, argc, argv);
-  ResultTable table(
-      output,
-      "triangles,build_s,hierarchy_bytes,tree_bytes,body_bytes,fcl_us,cold_us,seeded_us,front_us,"
-      "tracked_us,peak_mb,build_serial_s");
+  ResultTable table(output,
+                    "triangles,build_s,fcl_us,cold_us,seeded_us,front_us,"
+                    "tracked_us,peak_mb,build_serial_s");
   for (const std::size_t size : sizes) run(size, steps, table);
   return 0;
 }

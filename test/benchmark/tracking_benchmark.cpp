@@ -13,8 +13,7 @@
 // with the distance alone; warm / FCL (below 1: all niches in less time than FCL's one distance) and FCL /
 // distance alone; mean niches; instants; answers that are off FCL's or not proven (wrong, 0 expected) and
 // instants that list fewer than 64 niches of which not all are proven to be found (incomplete, 0 expected);
-// of the instants that a cold solve saw, too, those at which it lists other niches (other, 0 expected);
-// memory of both bodies and of the tracker, kilobytes.
+// of the instants that a cold solve saw, too, those at which it lists other niches (other, 0 expected).
 #include <algorithm>
 #include <cmath>
 
@@ -45,7 +44,6 @@ struct Row {
   int wrong = 0;
   int incomplete = 0;
   int other = 0;
-  std::size_t tracker_bytes = 0;
 };
 
 TrackerParameters certified(bool niches_wanted) {
@@ -125,7 +123,6 @@ Row run(const BenchmarkPair& pair, int steps, double cutoff) {
     check();
     fresh.restart();
   }
-  row.tracker_bytes = tracker.memoryBytes();
   return row;
 }
 
@@ -149,7 +146,7 @@ int benchmarkMain(int argc, char** argv) {
   ResultTable table(options.output(),
                     "pair,steps,cutoff,triangles_a,triangles_b,prepare_ms,first_list_ms,fcl_us,cold_us,"
                     "first_us,warm_us,warm_p99_us,warm_over_fcl,alone_us,alone_p99_us,fcl_over_alone,niches,"
-                    "instants,wrong,incomplete,other,bodies_kb,tracker_kb");
+                    "instants,wrong,incomplete,other");
   for (const std::string& name : names) {
     const BenchmarkPair pair = files.empty() ? loadBenchmarkPair(name) : makeCirclingPair(name);
     for (const int count : steps) {
@@ -162,8 +159,7 @@ int benchmarkMain(int argc, char** argv) {
                   pair.b->surface().triangleCount(), row.prepare_ms, row.first_list_ms, fcl,
                   median(row.cold_us), median(row.first_us), warm, percentile(row.warm_us, 0.99), warm / fcl,
                   alone, percentile(row.alone_us, 0.99), fcl / alone, mean(row.niches), count, row.wrong,
-                  row.incomplete, row.other, (pair.a->memoryBytes() + pair.b->memoryBytes()) / 1024,
-                  row.tracker_bytes / 1024);
+                  row.incomplete, row.other);
       }
     }
   }

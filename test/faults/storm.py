@@ -19,7 +19,7 @@ REPORT = 60.0           # s between two lines of progress
 GROWTH_MB = 100.0       # largest growth of the node's own memory from the second quarter to the last
 LONGEST_SILENCE = 60.0  # s without an answer to list_bodies; the machine is busy with attackers too
 # Small limits make memory without a limit visible. LARGEST_MB is for the node and the processes it starts.
-LIMITS = {"limits/query_memory_mb": 128, "limits/import_memory_mb": 256, "limits/largest_node_count": 50000,
+LIMITS = {"limits/largest_niche_count": 100000, "limits/import_memory_mb": 256, "limits/largest_node_count": 50000,
           "limits/largest_triangle_count": 200000}
 LARGEST_MB = 1500.0
 OVERHANG = 120.0        # s that attacks may take to end after the storm

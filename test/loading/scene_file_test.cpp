@@ -314,7 +314,7 @@ TEST_F(SceneFile, WhatIsAllowedIsSaidInWords) {
   expectSettingRefused("largest_niche_count", "4294967296", "a whole number 1 or more");
   expectSettingRefused("hidden", "2", "true or false");
   expectSettingRefused("warning_distance", "never", "0 or more (m), or none");
-  expectExpertRefused("memory_limit", "1000", "a whole number 1048576 or more (bytes)");
+  expectExpertRefused("facet_pair_limit", "999", "a whole number 1000 or more");
   expectExpertRefused("search_share", "1.5", "from 0 to 1");
   expectExpertRefused("sharing_radius", "0", "greater than 0 (m), or auto");
   expectExpertRefused("mating_radius", "-1", "greater than 0 (m), or auto");

@@ -256,10 +256,8 @@ TEST_F(SceneLoading, NothingOfTheSearchIsMadeBeforeItIsNeeded) {
   plain.max_edge_length.reset();
   const SceneBody body = loadBody(plain, "", nullptr);
   EXPECT_EQ(gridOf(*body.mesh).nodesIfMade(), nullptr);
-  EXPECT_LT(body.mesh->memoryBytes(), 20'000U);
   gridOf(*body.mesh).metric();
   EXPECT_NE(gridOf(*body.mesh).nodesIfMade(), nullptr);
-  EXPECT_GT(body.mesh->memoryBytes(), 1'000'000U) << "what is made is counted";
 }
 
 TEST_F(SceneLoading, ABodyThatReachesTooFarIsRefusedAtOnce) {

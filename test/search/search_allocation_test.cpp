@@ -41,19 +41,5 @@ TEST(SearchAllocation, AWarmRunAllocatesNothing) {
   }
 }
 
-TEST(SearchAllocation, WorkspaceTellsItsMemory) {
-  const test::PairScene scene = test::facingCombs();
-  const PairObjective objective(*scene.a, *scene.b, scene.a_from_b);
-  SearchWorkspace workspace(*scene.a, *scene.b);
-  const std::size_t empty = workspace.memoryBytes();
-  RandomEngine engine(1);
-  const GeneticParameters parameters;
-  const NicheRadii radii{0.4, 0.5, 0.4};
-  GeneticState state(objective, parameters, radii, engine, workspace);
-  geneticSearch(state, {});
-  EXPECT_GT(workspace.memoryBytes(), empty + 100 * sizeof(TrialPoint));
-  EXPECT_LT(workspace.memoryBytes(), 1'000'000U);
-}
-
 }  // namespace
 }  // namespace concave_distance::search_allocation_test

@@ -1,18 +1,16 @@
 #pragma once
 
-#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <vector>
 
 namespace concave_distance {
 
-/// Limits the time and the memory of a solve. All its stages share one limit and ask it in every loop that
-/// can be long; a refusal is remembered until the solve ends. Without deadline and stop flag, asking costs a
-/// comparison; reading the clock costs about 25 ns.
+/// Limits the time of a solve and the facet pairs that each of its stages may hold. All stages share one
+/// limit and ask it in every loop that can be long; a refusal is remembered until the solve ends. Without
+/// deadline and stop flag, asking costs a comparison; reading the clock costs about 25 ns.
 class WorkLimit {
  public:
   using Clock = std::chrono::steady_clock;
@@ -21,10 +19,10 @@ class WorkLimit {
   WorkLimit() = default;
 
   /// @param seconds from `start`; infinite: no deadline
-  /// @param memory_bytes for all buffers that makeRoom() and takeMemory() count
+  /// @param facet_pairs that a stage may hold at once (admits())
   /// @param stop ends the work as soon as it is set; nullptr: none
-  WorkLimit(Clock::time_point start, double seconds, std::size_t memory_bytes, const std::atomic<bool>* stop)
-      : start_(start), seconds_(seconds), stop_(stop), memory_(memory_bytes) {
+  WorkLimit(Clock::time_point start, double seconds, std::size_t facet_pairs, const std::atomic<bool>* stop)
+      : start_(start), seconds_(seconds), stop_(stop), facet_pairs_(facet_pairs) {
     allowShare(1.0);
   }
 
@@ -55,40 +53,12 @@ class WorkLimit {
     return isOver();
   }
 
-  /// Returns whether `more` elements may be added. Counts what the growth takes and grows at once.
-  template <typename T>
-  bool makeRoom(std::vector<T>& buffer, std::size_t more = 1) {
-    const std::size_t needed = buffer.size() + more;
-    if (needed <= buffer.capacity()) return true;
-    const std::size_t before = buffer.capacity();
-    const std::size_t grown = std::max(needed, 2 * before);
-    if (!takeMemory(grown * sizeof(T))) return false;
-    buffer.reserve(grown);
-    returnMemory(before * sizeof(T));  // the old elements go when the new ones are in place
-    return true;
-  }
-
-  /// Counts memory as taken, or refuses it.
-  bool takeMemory(std::size_t bytes) {
-    if (!hasMemory(bytes)) {
-      memory_refused_ = true;
-      return false;
-    }
-    taken_ += bytes;
-    return true;
-  }
-  void returnMemory(std::size_t bytes) { taken_ -= std::min(bytes, taken_); }
-  /// Counts the memory of buffers from earlier solves.
-  void setTaken(std::size_t bytes) { taken_ = bytes; }
-  std::size_t taken() const { return taken_; }
-  /// Returns whether takeMemory() would succeed; counts nothing.
-  bool hasMemory(std::size_t bytes) const { return bytes <= memory_ && taken_ <= memory_ - bytes; }
-
-  /// The same time for a part that another thread may do, in buffers that have all the memory they get.
-  WorkLimit withoutMemory() const {
-    WorkLimit part = *this;
-    part.memory_ = 0;
-    return part;
+  /// Returns whether a stage may hold so many facet pairs at once, or pairs of boxes or of cones, each of
+  /// which stands for many.
+  bool admits(std::size_t facet_pairs) {
+    if (facet_pairs <= facet_pairs_) return true;
+    pairs_refused_ = true;
+    return false;
   }
 
   /// Says that the time is likely to suffice. The deadline holds, but isTimed() is false: stages take the
@@ -100,8 +70,8 @@ class WorkLimit {
   double shareOf(double seconds) const { return seconds_ < kLongest ? seconds / seconds_ : 0.0; }
   /// Returns whether anything was refused, so that the results are incomplete.
   bool hasRefusedTime() const { return time_refused_; }
-  bool hasRefusedMemory() const { return memory_refused_; }
-  bool hasRefused() const { return time_refused_ || memory_refused_; }
+  bool hasRefusedPairs() const { return pairs_refused_; }
+  bool hasRefused() const { return time_refused_ || pairs_refused_; }
 
  private:
   using Duration = std::chrono::duration<double>;
@@ -112,27 +82,13 @@ class WorkLimit {
   Clock::time_point deadline_;
   double seconds_ = std::numeric_limits<double>::infinity();
   const std::atomic<bool>* stop_ = nullptr;
-  std::size_t memory_ = std::numeric_limits<std::size_t>::max();
-  std::size_t taken_ = 0;
+  std::size_t facet_pairs_ = std::numeric_limits<std::size_t>::max();
   std::uint32_t until_look_ = 0;
   bool is_timed_ = false;
   bool expects_enough_ = false;
   bool is_over_ = false;
   bool time_refused_ = false;
-  bool memory_refused_ = false;
-};
-
-/// Returns the memory taken inside a scope at its end, for buffers that are freed there.
-class MemoryScope {
- public:
-  explicit MemoryScope(WorkLimit& limit) : limit_(limit), taken_(limit.taken()) {}
-  ~MemoryScope() { limit_.setTaken(taken_); }
-  MemoryScope(const MemoryScope&) = delete;
-  MemoryScope& operator=(const MemoryScope&) = delete;
-
- private:
-  WorkLimit& limit_;
-  std::size_t taken_;
+  bool pairs_refused_ = false;
 };
 
 }  // namespace concave_distance

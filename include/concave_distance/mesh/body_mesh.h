@@ -65,7 +65,6 @@ struct RoundCore {
 class BodyAttachment {
  public:
   virtual ~BodyAttachment() = default;
-  virtual std::size_t memoryBytes() const = 0;
 };
 
 /// One body, ready for queries: the original surface with its topology and trees, and a place where the
@@ -97,8 +96,6 @@ class BodyMesh {
   const BodyMesh& asSolved() const { return recentred().mesh ? *recentred().mesh : *this; }
   /// The core of shape(). Built at the first call, for all threads.
   const RoundCore& core() const;
-  /// Memory of the parts made so far, the search's grid among them.
-  std::size_t memoryBytes() const;
 
   const MeshTopology& topology() const { return *topology_; }
   const TriangleTree& tree() const { return *tree_; }

@@ -39,13 +39,11 @@ struct PreparationSettings {
   std::function<void(std::size_t done, std::size_t count)> progress;
 };
 
-/// Counts what SceneTracker::prepare() has made and left.
+/// Counts what SceneTracker::prepare() has looked at and left.
 struct PreparationCounts {
-  std::size_t bodies = 0;        ///< meshes that it looked at
-  std::size_t made = 0;          ///< of these the ones of which something was missing
-  std::size_t left = 0;          ///< of these the ones that there was no time for
-  std::size_t lists_left = 0;    ///< pairs whose niches there was no time for
-  std::size_t memory_bytes = 0;  ///< by which the meshes have grown
+  std::size_t bodies = 0;      ///< meshes that it looked at
+  std::size_t left = 0;        ///< of these the ones that there was no time for
+  std::size_t lists_left = 0;  ///< pairs whose niches there was no time for
 
   bool isComplete() const { return left == 0 && lists_left == 0; }
 };

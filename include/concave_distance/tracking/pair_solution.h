@@ -33,7 +33,7 @@ enum class SolveStatus : std::uint8_t {
   InvalidPose,      ///< nothing was computed
   BudgetExhausted,  ///< the time ran out before all was done; lower_bound holds
   WithinTolerance,  ///< lower_bound is within the tolerance of the distance
-  MemoryExhausted   ///< the memory limit was reached before all was done; lower_bound holds
+  MemoryExhausted   ///< the limit of facet pairs, or memory, ended before all was done; lower_bound holds
 };
 std::string_view toString(SolveStatus status);
 
@@ -85,7 +85,7 @@ struct NicheEvent {
 struct PairSolution {
   Eigen::Isometry3d a_from_b = Eigen::Isometry3d::Identity();  ///< the pose that this is the answer for
   SolveStatus status = SolveStatus::Ok;
-  /// The level reached; after the time budget or memory limit, the level of what was finished.
+  /// The level reached; after the time budget or limit of facet pairs, the level of what was finished.
   AccuracyLevel accuracy = AccuracyLevel::Refined;
   double distance = kNotComputed;  ///< metres; 0 when penetrating
   /// Proven: the true distance is not smaller; 0 when penetrating. NaN at levels that prove none.

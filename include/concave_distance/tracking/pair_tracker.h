@@ -62,7 +62,6 @@ class PairTracker {
   /// Takes effect at the next cycle. @throws Error for parameters out of range
   void setParameters(const TrackerParameters& parameters);
   [[nodiscard]] const TrackerParameters& parameters() const;
-  [[nodiscard]] std::size_t memoryBytes() const;
 
  private:
   struct State;

@@ -23,9 +23,9 @@ struct TrackerParameters {
   /// proof of the distance, the rest for search and niches; unused time goes to the next. Building a
   /// body's normal cones, done once, is not interrupted.
   double time_budget = std::numeric_limits<double>::infinity();
-  /// Bytes of working memory for the solves of one pair, including what is kept between cycles. The
-  /// benchmarks' largest solve takes a quarter of the default.
-  std::size_t memory_limit = std::size_t{512} << 20U;
+  /// Facet pairs (a facet of each body) that a stage of a solve may hold at once, kept ones included; one
+  /// costs at most 250 bytes. The benchmarks' largest solve holds a quarter of the default.
+  std::uint32_t facet_pair_limit = 1U << 22U;
   /// When set, a solve ends as if its time had run out; nullptr: none.
   const std::atomic<bool>* stop = nullptr;
   /// These are for a first cycle, a service call and after a reset. Level `certified`, which finds every
@@ -64,7 +64,7 @@ struct TrackerParameters {
   void validate(const std::string& where) const;
 };
 
-/// The time and memory left for the effects after a solve of this many seconds.
+/// The time left, and the facet pairs, for the effects after a solve of this many seconds.
 WorkLimit remainingWork(const TrackerParameters& parameters, double seconds_spent);
 
 }  // namespace concave_distance

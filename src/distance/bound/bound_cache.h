@@ -42,10 +42,6 @@ class BoundCache {
   /// Returns false when the next proof must begin at the roots.
   bool valid() const { return valid_; }
   std::size_t size() const { return quads_.size() + leaf_pairs_.size(); }
-  std::size_t memoryBytes() const {
-    return quads_.capacity() * sizeof(Quad) + directions_.capacity() * sizeof(detail::LaneDirections) +
-           leaf_pairs_.capacity() * sizeof(LeafPair);
-  }
 
  private:
   friend class detail::BranchAndBound;

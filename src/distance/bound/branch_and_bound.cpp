@@ -233,7 +233,7 @@ void BranchAndBound::expand(const OpenPairs::OpenPair& pair) {
 // Adds an entry to the cache, none of its children excluded; returns nullptr when there is no room.
 BoundCache::Quad* BranchAndBound::keepQuad(Slot kept, std::uint32_t opened, bool opens_b,
                                            const LaneDirections& directions) {
-  if (!limit_.makeRoom(cache_->quads_) || !limit_.makeRoom(cache_->directions_)) {
+  if (!limit_.admits(cache_->size() + 1)) {
     dropCache();
     return nullptr;
   }
@@ -260,7 +260,7 @@ void BranchAndBound::openLeaves(const OpenPairs::OpenPair& pair) {
                nearest_.measureLeaves(leafOfA(pair.a), leafOfB(pair.b), cache_ != nullptr, direction));
   exclude(bound);
   if (cache_ == nullptr) return;
-  if (!limit_.makeRoom(cache_->leaf_pairs_)) {
+  if (!limit_.admits(cache_->size() + 1)) {
     dropCache();
     return;
   }

@@ -30,12 +30,12 @@ class OpenPairs {
     count_ = 1;
   }
 
-  /// Returns false when the limit refuses the memory.
+  /// Returns false when the limit admits no more pairs.
   bool add(Slot a, Slot b, double squared_bound) {
     if (pairs_.size() == count_) {
-      const std::size_t more = pairs_.size() + 256;
-      if (!limit_.makeRoom(pairs_, more)) return false;
-      pairs_.resize(pairs_.size() + more);
+      const std::size_t grown = 2 * pairs_.size() + 256;
+      if (!limit_.admits(grown)) return false;
+      pairs_.resize(grown);
     }
     // Field by field: a pair put together on the stack first would stall the store buffer.
     OpenPair& pair = pairs_[count_++];

@@ -11,9 +11,6 @@ constexpr std::size_t kMostExpired = 512;
 constexpr std::size_t kMostOpened = 64;
 constexpr std::size_t kOpen = 512;
 constexpr std::size_t kMinima = 64;
-constexpr std::size_t kBytes = ConeSlices::kMostKept * sizeof(KeptPair) +
-                               (kOpen + kMinima) * sizeof(SlotPair) +
-                               kMinima * (sizeof(LiveMinimum) + sizeof(MinimumCandidate));
 
 void clear(SweepLists& lists) {
   lists.open.clear();
@@ -26,10 +23,8 @@ void clear(SweepLists& lists) {
 
 }  // namespace
 
-bool ConeSlices::prepare(WorkLimit& limit) {
-  if (!slices_.empty()) return true;
-  if (!limit.hasMemory(kCount * kBytes)) return false;
-  limit.takeMemory(kCount * kBytes);
+void ConeSlices::prepare() {
+  if (!slices_.empty()) return;
   slices_.resize(kCount);
   for (Slice& slice : slices_) {
     slice.lists.open.reserve(kOpen);
@@ -38,7 +33,6 @@ bool ConeSlices::prepare(WorkLimit& limit) {
     slice.lists.candidates.reserve(kMinima);
     slice.lists.kept.reserve(kMostKept);
   }
-  return true;
 }
 
 std::size_t ConeSlices::takeExpired(const SlotPair* first, std::size_t count) {
@@ -68,12 +62,6 @@ void ConeSlices::takeOpen(std::vector<SlotPair>& open) {
     taken = end;
   }
   open.resize(open.size() - count);
-}
-
-std::size_t ConeSlices::memoryBytes() const {
-  std::size_t bytes = slices_.capacity() * sizeof(Slice);
-  for (const Slice& slice : slices_) bytes += slice.lists.memoryBytes();
-  return bytes;
 }
 
 }  // namespace concave_distance::detail

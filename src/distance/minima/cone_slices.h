@@ -3,7 +3,6 @@
 #include <cstddef>
 #include <vector>
 
-#include "concave_distance/base/work_limit.h"
 #include "sweep_lists.h"
 
 namespace concave_distance::detail {
@@ -25,8 +24,8 @@ class ConeSlices {
     ExpiredPairs expired{};
   };
 
-  /// Allocates the slices when they are first needed. Returns false without memory.
-  bool prepare(WorkLimit& limit);
+  /// Allocates the slices when they are first needed.
+  void prepare();
 
   /// Fills slices with the first pairs of a list. @return how many pairs
   std::size_t takeExpired(const SlotPair* first, std::size_t count);
@@ -35,8 +34,6 @@ class ConeSlices {
 
   std::size_t used() const { return used_; }
   Slice& operator[](std::size_t i) { return slices_[i]; }
-
-  std::size_t memoryBytes() const;
 
  private:
   std::vector<Slice> slices_;

@@ -81,7 +81,7 @@ class ConeSweep {
     std::vector<LiveMinimum>& minima = lists_.minima;
     std::size_t rest = 0;
     for (std::size_t i = 0; i < minima.size(); ++i) {
-      if (limit_.isOverNow() || !limit_.makeRoom(lists_.candidates)) {
+      if (limit_.isOverNow() || !limit_.admits(lists_.size() + 1)) {
         minima.erase(minima.begin() + static_cast<std::ptrdiff_t>(rest),
                      minima.begin() + static_cast<std::ptrdiff_t>(i));
         return false;
@@ -112,12 +112,16 @@ class ConeSweep {
   const Item& itemOfA(Slot slot) const { return ConeComparison::itemOf(cones_.a, cones_.a.child(slot)); }
   const Item& itemOfB(Slot slot) const { return ConeComparison::itemOf(cones_.b, cones_.b.child(slot)); }
 
+  template <typename T>
+  static bool fits(const std::vector<T>& list, std::size_t more) {
+    return list.size() + more <= list.capacity();
+  }
   /// Returns whether the lists have room for one step.
   bool hasRoom() {
-    if (!limit_.makeRoom(lists_.open, ConeComparison::kWidth) || !limit_.makeRoom(lists_.candidates))
-      return false;
-    return !is_slice_ || (room_to_keep_ >= ConeComparison::kWidth && limit_.makeRoom(lists_.minima) &&
-                          limit_.makeRoom(lists_.undecided));
+    constexpr std::size_t kWidth = ConeComparison::kWidth;
+    if (!is_slice_) return limit_.admits(lists_.size() + kWidth);
+    return room_to_keep_ >= kWidth && fits(lists_.open, kWidth) && fits(lists_.candidates, 1) &&
+           fits(lists_.minima, 1) && fits(lists_.undecided, 1);
   }
 
   /// Compares the next pairs that have expired, without opening them.
@@ -174,12 +178,10 @@ class ConeSweep {
 
   void look(const SlotPair& pair) {
     LiveMinimum minimum;
-    if (!isMinimum(pair, minimum)) {
-      settle(pair);
-    } else if (limit_.makeRoom(lists_.minima)) {
+    if (isMinimum(pair, minimum)) {
       lists_.minima.push_back(minimum);
     } else {
-      lists_.undecided.push_back(pair);
+      settle(pair);
     }
   }
 
@@ -189,7 +191,7 @@ class ConeSweep {
     std::vector<SlotPair>& undecided = lists_.undecided;
     const std::size_t count = undecided.size();
     std::size_t asked = 0;
-    while (asked < count && !limit_.isOverNow() && limit_.makeRoom(lists_.candidates)) {
+    while (asked < count && !limit_.isOverNow() && limit_.admits(lists_.size() + 1)) {
       const SlotPair pair = undecided[asked++];
       look(pair);
     }
@@ -222,14 +224,14 @@ class ConeSweep {
     if (!keepFeatures(pair)) lists_.undecided.push_back(pair);
   }
 
-  /// Returns false for what has no slack, and without memory.
+  /// Returns false for what has no slack, and without room.
   bool keepFeatures(const SlotPair& pair) {
     resetOffers(pair);
     feature_slacks_.offer(itemOfA(pair.first), itemOfB(pair.second), offers_);
     return !offers_.empty() && keep(pair);
   }
 
-  /// Returns false for what has no slack, and without memory. An offer that is hardly above 0 may be none.
+  /// Returns false for what has no slack, and without room. An offer that is hardly above 0 may be none.
   bool keepGroups(const SlotPair& pair, const ConeReasons& reasons, std::uint32_t lane, bool kept_is_a) {
     resetOffers(pair);
     const double unit = (kept_is_a ? cones_.b : cones_.a).unit();
@@ -242,7 +244,7 @@ class ConeSweep {
     return !offers_.empty() && keep(pair);
   }
 
-  /// Returns false without memory.
+  /// Returns false without room.
   bool keep(const SlotPair& pair) {
     const std::uint32_t moved_distance = offers_.movedDistance();
     const std::uint64_t expiry = std::max(offers_.expiry(), motion_.now(moved_distance) + 1);

@@ -14,7 +14,7 @@ void collectConeCandidates(const PairFrame& frame, ConeChoice choice, double cut
   if (cones.a.empty() || cones.b.empty()) return;
   std::vector<SlotPair> open{{NormalConeTree::kRoot, NormalConeTree::kRoot}};
   while (!open.empty()) {
-    if (limit.isOverNow() || !limit.makeRoom(open, kWidth) || !limit.makeRoom(candidates)) return;
+    if (limit.isOverNow() || !limit.admits(candidates.size() + 1)) return;
     const auto [a, b] = open.back();
     open.pop_back();
     const std::uint32_t child_a = cones.a.child(a);

@@ -11,10 +11,9 @@ constexpr std::size_t kUsualExpired = 1024;
 /// Steps of the one sweep after which few open pairs are known to hold much.
 constexpr std::size_t kManySteps = 2048;
 
-/// Behind what is there. What the limit refuses is added, too: no pair may be lost, and slices are small.
+/// Behind what is there, whatever the limit says: no pair may be lost, and slices are small.
 template <typename T>
-void append(std::vector<T>& to, const std::vector<T>& from, WorkLimit& limit) {
-  limit.makeRoom(to, from.size());
+void append(std::vector<T>& to, const std::vector<T>& from) {
   to.insert(to.end(), from.begin(), from.end());
 }
 
@@ -63,7 +62,7 @@ class MinimaTracker::Stage {
     const std::size_t before = front_.queues_.size();
     const auto take = [&](const SlotPair& pair) { expired.push_back(pair); };
     for (std::uint32_t moved_distance = 0; moved_distance < front_.motion_.size(); ++moved_distance) {
-      front_.queues_.advance(moved_distance, front_.motion_.now(moved_distance), take, limit_);
+      front_.queues_.advance(moved_distance, front_.motion_.now(moved_distance), take);
     }
     front_.counts_.expired = static_cast<std::uint32_t>(before - front_.queues_.size());
   }
@@ -77,7 +76,8 @@ class MinimaTracker::Stage {
     while (!open.empty() || expiredCount() > 0) {
       if (std::size_t{lists.groups} + lists.features > most_comparisons_) return false;
       const bool much_expired = expiredCount() >= front_.sliced_from_;
-      if ((much_expired || open.size() >= ConeSlices::kManyOpen) && canSlice()) {
+      const bool is_much = much_expired || open.size() >= ConeSlices::kManyOpen;
+      if (is_much && !limit_.hasRefusedPairs()) {  // then the one sweep goes on
         if (limit_.isOver()) return false;
         much_expired ? runExpiredSlices() : runOpenSlices();
       } else if (!runAlone()) {
@@ -89,9 +89,6 @@ class MinimaTracker::Stage {
 
  private:
   std::size_t expiredCount() const { return front_.expired_.size() - front_.next_expired_; }
-
-  /// When memory is refused, the one sweep goes on without more.
-  bool canSlice() { return !limit_.hasRefusedMemory() && front_.slices_.prepare(limit_); }
 
   /// The one sweep; few open pairs that hold much are opened until there are enough for slices.
   bool runAlone() {
@@ -105,6 +102,7 @@ class MinimaTracker::Stage {
 
   void runExpiredSlices() {
     ConeSlices& slices = front_.slices_;
+    slices.prepare();
     const std::size_t taken =
         slices.takeExpired(front_.expired_.data() + front_.next_expired_, expiredCount());
     runSlices();
@@ -117,6 +115,7 @@ class MinimaTracker::Stage {
   }
 
   void runOpenSlices() {
+    front_.slices_.prepare();
     front_.slices_.takeOpen(front_.lists_.open);
     runSlices();
   }
@@ -125,9 +124,9 @@ class MinimaTracker::Stage {
     ConeSlices& slices = front_.slices_;
     front_.counts_.slices += static_cast<std::uint32_t>(slices.used());
     const std::size_t threads = ThreadTeam::countHere();
-    const WorkLimit time = limit_.withoutMemory();
+    const WorkLimit limit = limit_;
     const auto look = [&](std::size_t i) {
-      WorkLimit own = time;
+      WorkLimit own = limit;
       ConeSweep sweep(frame_, choice_, cutoff_, front_.motion_, slices[i].lists, own, ConeSlices::kMostKept);
       // One thread inserts in the same order without a buffer.
       if (threads == 1) sweep.keepIn(front_.queues_, limit_);
@@ -144,10 +143,10 @@ class MinimaTracker::Stage {
       if (!front_.queues_.insert(kept.moved_distance, kept.expiry, kept.pair, limit_))
         lists.open.push_back(kept.pair);
     }
-    append(lists.open, found.open, limit_);
-    append(lists.minima, found.minima, limit_);
-    append(lists.undecided, found.undecided, limit_);
-    append(lists.candidates, found.candidates, limit_);
+    append(lists.open, found.open);
+    append(lists.minima, found.minima);
+    append(lists.undecided, found.undecided);
+    append(lists.candidates, found.candidates);
     lists.groups += found.groups;
     lists.features += found.features;
     lists.measured += found.measured;
@@ -201,11 +200,6 @@ void MinimaTracker::count() {
   counts_.kept = static_cast<std::uint32_t>(queues_.size());
   counts_.live = static_cast<std::uint32_t>(lists_.minima.size() + lists_.undecided.size());
   counts_.undecided = static_cast<std::uint32_t>(lists_.undecided.size());
-}
-
-std::size_t MinimaTracker::memoryBytes() const {
-  return queues_.memoryBytes() + lists_.memoryBytes() + slices_.memoryBytes() +
-         expired_.capacity() * sizeof(SlotPair);
 }
 
 }  // namespace concave_distance::detail

@@ -54,7 +54,6 @@ class MinimaTracker {
   bool hasOutgrown() const { return hasGrown(kLargeGrowth); }
 
   const Counts& counts() const { return counts_; }
-  std::size_t memoryBytes() const;
 
   /// Calls visit(slot of A, slot of B) for everything that is kept or live: what a test of completeness looks
   /// at.

@@ -38,11 +38,8 @@ struct SweepLists {
   std::uint32_t features = 0;  ///< pairs of features that were asked whether they hold a minimum
   std::uint32_t measured = 0;  ///< minima that have stayed
 
-  std::size_t memoryBytes() const {
-    return (open.capacity() + undecided.capacity()) * sizeof(SlotPair) +
-           minima.capacity() * sizeof(LiveMinimum) + candidates.capacity() * sizeof(MinimumCandidate) +
-           kept.capacity() * sizeof(KeptPair);
-  }
+  /// Returns how many pairs a sweep with queues holds besides what these keep.
+  std::size_t size() const { return open.size() + minima.size() + undecided.size() + candidates.size(); }
 };
 
 /// Holds expired pairs that are compared before any of them is opened.

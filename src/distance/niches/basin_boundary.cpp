@@ -145,11 +145,9 @@ BasinBoundary::Batch& BasinBoundary::batchAt(const PairFrame& frame, Side fixed_
   return batch;
 }
 
-std::uint32_t BasinBoundary::placeIn(BoundaryPool& pool, Batch& batch, WorkLimit& limit) {
+std::uint32_t BasinBoundary::placeIn(BoundaryPool& pool, Batch& batch) {
   if (batch.first == BoundaryPool::kNone || pool[batch.first].count == BoundaryPool::kWidth) {
-    const std::uint32_t chunk = pool.take(batch.first, limit);
-    if (chunk == BoundaryPool::kNone) return chunk;
-    batch.first = chunk;
+    batch.first = pool.take(batch.first);
   }
   return pool[batch.first].count++;
 }
@@ -167,27 +165,23 @@ BoundaryPool::Entry BasinBoundary::takeFrom(BoundaryPool::Chunk& chunk, std::uin
   return entry;
 }
 
-bool BasinBoundary::put(BoundaryPool& pool, Batch& batch, const BoundaryPool::Entry& entry,
-                        WorkLimit& limit) {
-  const std::uint32_t k = placeIn(pool, batch, limit);
-  if (k == BoundaryPool::kNone) return false;
+void BasinBoundary::put(BoundaryPool& pool, Batch& batch, const BoundaryPool::Entry& entry) {
+  const std::uint32_t k = placeIn(pool, batch);
   BoundaryPool::Chunk& chunk = pool[batch.first];
   chunk.gap[k] = entry.gap;
   chunk.radius[k] = entry.radius;
   for (std::size_t d = 0; d < 3; ++d) chunk.direction[d][k] = entry.direction[static_cast<Eigen::Index>(d)];
   chunk.elements[k] = entry.element;
   batch.largest = std::max(batch.largest, entry.radius);
-  return true;
 }
 
-bool BasinBoundary::add(BoundaryPool& pool, const PairFrame& frame, const BoundaryElement& element,
-                        double level, WorkLimit& limit) {
+void BasinBoundary::add(BoundaryPool& pool, const PairFrame& frame, const BoundaryElement& element,
+                        double level) {
   const Radii radii(partOf(frame, Side::A, element.shared), partOf(frame, Side::B, element.shared), centres_);
   if (used_ == kMostBatches) rebase(pool, frame);
   // Twice for the level, and as much for quadrangles that are not quite flat.
   const auto gap = static_cast<float>(level - 4.0 * frame.rounding);
-  return put(pool, batchAt(frame, radii.fixed_in, false),
-             {gap, radii.smaller, Eigen::Vector3f::Zero(), element}, limit);
+  put(pool, batchAt(frame, radii.fixed_in, false), {gap, radii.smaller, Eigen::Vector3f::Zero(), element});
 }
 
 /// Takes out of the batch what may be nearer than the level: it is looked at along its direction, and
@@ -250,7 +244,6 @@ void BasinBoundary::rebase(BoundaryPool& pool, const PairFrame& frame) {
   const std::array<Batch, kMostBatches> before = batches_;
   const std::uint32_t count = used_;
   used_ = 0;
-  WorkLimit none;
   for (std::uint32_t i = 0; i < count; ++i) {
     const Batch& batch = before[i];
     if (batch.first == BoundaryPool::kNone) continue;
@@ -265,7 +258,7 @@ void BasinBoundary::rebase(BoundaryPool& pool, const PairFrame& frame) {
       for (std::uint32_t k = chunk.count; k-- > 0;) {
         BoundaryPool::Entry entry = takeFrom(chunk, k);
         entry.gap = gaps[k];
-        put(pool, at_this_pose, entry, none);
+        put(pool, at_this_pose, entry);
       }
     }
   }
@@ -287,9 +280,8 @@ std::uint32_t BasinBoundary::takeCrossed(BoundaryPool& pool, const PairFrame& fr
   }
   used_ = rest;
   if (used_ + 2 > kMostBatches) rebase(pool, frame);
-  WorkLimit none;
   for (const BoundaryPool::Directed& directed : pool.anew) {
-    put(pool, batchAt(frame, directed.fixed_in, true), directed.entry, none);
+    put(pool, batchAt(frame, directed.fixed_in, true), directed.entry);
   }
   return measured;
 }

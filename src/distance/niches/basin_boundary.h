@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "boundary_pool.h"
+#include "concave_distance/base/work_limit.h"
 
 namespace concave_distance::detail {
 
@@ -20,9 +21,7 @@ class BasinBoundary {
   void clear(BoundaryPool& pool);
 
   /// @param level the distance (m) over the element at this pose
-  /// @return false without memory
-  bool add(BoundaryPool& pool, const PairFrame& frame, const BoundaryElement& element, double level,
-           WorkLimit& limit);
+  void add(BoundaryPool& pool, const PairFrame& frame, const BoundaryElement& element, double level);
 
   /// Moves the elements over which the distance is below `level` (m) from the boundary to `pool.crossed`.
   /// After the limit, elements that have to be measured stay, and pool.has_unmeasured says so.
@@ -48,11 +47,10 @@ class BasinBoundary {
 
   /// Returns the batch of this pose; there must be room for one more.
   Batch& batchAt(const PairFrame& frame, Side fixed_in, bool directed);
-  /// Returns the place for another element, or kNone without memory.
-  static std::uint32_t placeIn(BoundaryPool& pool, Batch& batch, WorkLimit& limit);
+  /// Returns the place for another element.
+  static std::uint32_t placeIn(BoundaryPool& pool, Batch& batch);
   static BoundaryPool::Entry takeFrom(BoundaryPool::Chunk& chunk, std::uint32_t k);
-  /// @return false without memory
-  static bool put(BoundaryPool& pool, Batch& batch, const BoundaryPool::Entry& entry, WorkLimit& limit);
+  static void put(BoundaryPool& pool, Batch& batch, const BoundaryPool::Entry& entry);
   std::uint32_t look(BoundaryPool& pool, const PairFrame& frame, Batch& batch, double level,
                      WorkLimit& limit) const;
   void rebase(BoundaryPool& pool, const PairFrame& frame);

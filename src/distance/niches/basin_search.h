@@ -67,10 +67,10 @@ class BasinSearch {
     measures_pass_ = false;
     is_visited_.clear();
   }
-  /// False without memory.
+  /// False when the limit admits no more facet pairs.
   bool enterBeyond(TriangleIndex a, TriangleIndex b, double squared_level, WorkLimit& limit) {
     if (table_.find(a, b) != PairTable::kAbsent) return true;
-    if (!makeRoom(limit)) return false;
+    if (!limit.admits(facet_pairs_.size() + 1)) return false;
     enter(a, b, squared_level, kNone, {});
     return true;
   }
@@ -128,12 +128,6 @@ class BasinSearch {
     return table_.find(step.beyond_a, step.beyond_b) == PairTable::kAbsent;
   }
 
-  std::size_t memoryBytes() const {
-    return table_.memoryBytes() + facet_pairs_.capacity() * sizeof(FacetPair) +
-           reached_.capacity() * sizeof(Reached) + is_visited_.capacity() +
-           boundary_.capacity() * sizeof(BoundaryStep);
-  }
-
  private:
   struct Reached {
     double squared_level;
@@ -142,11 +136,6 @@ class BasinSearch {
   static bool isHigher(const Reached& l, const Reached& r) {
     if (l.squared_level != r.squared_level) return l.squared_level > r.squared_level;
     return l.facet_pair > r.facet_pair;  // any order will do, as long as it is always the same
-  }
-
-  bool makeRoom(WorkLimit& limit) {
-    return table_.makeRoom(limit) && limit.makeRoom(facet_pairs_) && limit.makeRoom(reached_) &&
-           (!measures_pass_ || limit.makeRoom(is_visited_));
   }
 
   void enter(TriangleIndex a, TriangleIndex b, double squared_level, std::uint32_t parent,
@@ -163,7 +152,7 @@ class BasinSearch {
     std::push_heap(reached_.begin(), reached_.end(), isHigher);
   }
 
-  /// False without memory.
+  /// False when the limit admits no more facet pairs.
   template <typename IsInside>
   bool expand(const PairFrame& frame, TriangleIndex a, TriangleIndex b, const FacetPoints& points_a,
               const FacetPoints& points_b, const FacetPairLevels& levels, const IsInside& is_inside,
@@ -175,20 +164,17 @@ class BasinSearch {
         [&](TriangleIndex to_a, TriangleIndex to_b, double squared_level, const SharedElement& element) {
           if (!has_room) return;
           if (squared_level > highest) {
-            has_room = limit.makeRoom(boundary_);
-            if (has_room) boundary_.push_back({to_a, to_b, squared_level, element});
+            boundary_.push_back({to_a, to_b, squared_level, element});
             return;
           }
           const std::uint32_t known = table_.find(to_a, to_b);
           if (known != PairTable::kAbsent) {
             // This way may be lower than the one by which it was reached before.
-            if (!measures_pass_ || is_visited_[known] != 0) return;
-            has_room = limit.makeRoom(reached_);
-            if (has_room) reach(known, squared_level);
+            if (measures_pass_ && is_visited_[known] == 0) reach(known, squared_level);
             return;
           }
           if (is_inside(to_a, to_b)) return;
-          has_room = makeRoom(limit);
+          has_room = limit.admits(facet_pairs_.size() + 1);
           if (has_room) enter(to_a, to_b, squared_level, last_, element);
         });
     return has_room;

@@ -6,7 +6,6 @@
 #include <memory>
 #include <vector>
 
-#include "concave_distance/base/work_limit.h"
 #include "facet_pair_neighbours.h"
 
 namespace concave_distance::detail {
@@ -49,8 +48,8 @@ class BoundaryPool {
     Entry entry;
   };
 
-  /// Returns an empty group that precedes `next`, or kNone without memory.
-  std::uint32_t take(std::uint32_t next, WorkLimit& limit);
+  /// Returns an empty group that precedes `next`.
+  std::uint32_t take(std::uint32_t next);
   /// Frees the group and all after it.
   void release(std::uint32_t first);
   Chunk& operator[](std::uint32_t chunk) { return (*blocks_[chunk / kBlockSize])[chunk % kBlockSize]; }
@@ -59,7 +58,6 @@ class BoundaryPool {
   }
 
   void clear();
-  std::size_t memoryBytes() const;
 
   // Results of the last BasinBoundary::takeCrossed().
   std::vector<Directed> anew;

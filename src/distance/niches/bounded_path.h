@@ -30,11 +30,6 @@ struct BoundedPathBuffers {
   std::vector<bool> known[2];  ///< facets of A and B; false between calls
   std::vector<Reached> reached;
   std::vector<Open> open;
-
-  std::size_t memoryBytes() const {
-    return reached.capacity() * sizeof(Reached) + open.capacity() * sizeof(Open) +
-           (known[0].capacity() + known[1].capacity()) / 8;
-  }
 };
 
 /// Looks for a path over facet pairs with the distance below a limit, moving one body at a time. The
@@ -119,7 +114,6 @@ class BoundedPath {
                                                 side == 0 ? levels.edges_of_a : levels.edges_of_b,
                                                 side == 0 ? here.b : here.a, still);
         if (squared > limit * limit) continue;
-        if (!work_.makeRoom(buffers_.reached) || !work_.makeRoom(buffers_.open)) break;
         enter(beyond.triangle, std::max(squared, next.squared_level));
       }
     }

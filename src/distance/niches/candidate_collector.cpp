@@ -36,7 +36,6 @@ bool CandidateCollector::collect(const PairFrame& frame, const LocalMinimaReques
                                  WorkLimit& limit) {
   candidates.clear();
   if (request.given != nullptr) {
-    if (!limit.makeRoom(candidates, request.given->size())) return false;
     appendCandidates(frame, request, *request.given, candidates);
     const bool is_met = std::any_of(candidates.begin(), candidates.end(), [&](const MinimumCandidate& c) {
       return c.distance <= meetingTolerance(frame);
@@ -61,10 +60,6 @@ bool CandidateCollector::collectOverlap(const PairFrame& frame, const LocalMinim
                                         WorkLimit& limit) {
   const bool all = overlap_.find(frame, request.is_tracked, cost, limit);
   const std::vector<OverlapParts::Part>& parts = overlap_.parts();
-  if (!limit.makeRoom(candidates, parts.size())) {
-    overlap_.findNone();
-    return false;
-  }
   for (std::uint32_t k = 0; k < parts.size(); ++k) {
     candidates.push_back(candidateOn(parts[k].triangles.a, parts[k].triangles.b, parts[k].distance));
     candidates.back().part = k;
@@ -84,10 +79,7 @@ bool CandidateCollector::collectMinima(const PairFrame& frame, const LocalMinima
       break;
   }
   const ConeChoice cones = conesOf(request);
-  if (request.nearest_beside_dents != nullptr) {
-    if (!limit.makeRoom(candidates)) return false;
-    candidates.push_back(*request.nearest_beside_dents);
-  }
+  if (request.nearest_beside_dents != nullptr) candidates.push_back(*request.nearest_beside_dents);
   if (request.is_tracked) {
     const bool done = front_.collect(frame, cones, request.cutoff, candidates, limit);
     cost.node_pairs += front_.counts().groups;

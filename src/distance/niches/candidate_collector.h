@@ -38,11 +38,6 @@ class CandidateCollector {
     shell_pairs_.clear();
     overlap_.findNone();
   }
-  std::size_t memoryBytes() const {
-    return front_.memoryBytes() + next_front_.memoryBytes() + shell_pairs_.memoryBytes() +
-           distant_components_.memoryBytes() + overlap_.memoryBytes() +
-           next_candidates_.capacity() * sizeof(MinimumCandidate);
-  }
 
  private:
   bool collectOverlap(const PairFrame& frame, const LocalMinimaRequest& request,

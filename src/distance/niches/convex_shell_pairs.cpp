@@ -86,7 +86,6 @@ ConvexShellPairs::Outcome ConvexShellPairs::look(const PairFrame& frame, const L
     // Another place of a set may not be in the material of another shell.
     return is_point ? Outcome::Complete : Outcome::Unknown;
   }
-  if (!limit.makeRoom(candidates)) return Outcome::LimitReached;
   candidates.push_back(frame.candidateOf(witness));
   candidates.back().is_point = is_point;
   return Outcome::Complete;
@@ -97,13 +96,6 @@ void ConvexShellPairs::clear() {
     pair.cache.clear();
     pair.has_nearest = false;
   }
-}
-
-std::size_t ConvexShellPairs::memoryBytes() const {
-  std::size_t bytes = pairs_.capacity() * sizeof(ShellPair) +
-                      workspace_.open.capacity() * sizeof(CertificateWorkspace::OpenPair);
-  for (const ShellPair& pair : pairs_) bytes += pair.cache.memoryBytes();
-  return bytes;
 }
 
 }  // namespace concave_distance::detail

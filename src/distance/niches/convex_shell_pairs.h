@@ -25,7 +25,6 @@ class ConvexShellPairs {
   Outcome collect(const PairFrame& frame, const LocalMinimaRequest& request,
                   std::vector<MinimumCandidate>& candidates, WorkLimit& limit);
   void clear();
-  std::size_t memoryBytes() const;
 
  private:
   /// Two shells and what the last proof of their distance has left.

@@ -22,10 +22,7 @@ void DecisionBasins::restoreBoundary(std::uint32_t index) {
   for (const BoundaryElement& element : memory_.boundaries().crossed) {
     const TrianglePair beyond = element.pairBeyond();
     if (memory_.isIn(beyond.a, beyond.b, index)) continue;
-    if (!memory_.basin(index).boundary.add(memory_.boundaries(), frame_, element, 0.0, limit_)) {
-      memory_.drop(index);
-      return;
-    }
+    memory_.basin(index).boundary.add(memory_.boundaries(), frame_, element, 0.0);
   }
 }
 
@@ -58,8 +55,7 @@ void DecisionBasins::keepSome(const TrianglePair& around, Progress& progress) {
 std::uint32_t DecisionBasins::begin(std::uint64_t id, const TrianglePair& around) {
   const std::size_t size = search_.facet_pairs().size();
   if (size > kLargestBasin) return DecisionCache::kNone;
-  const std::uint32_t index = memory_.takeBasin(id, limit_);
-  if (index == DecisionCache::kNone) return index;
+  const std::uint32_t index = memory_.takeBasin(id);
   DecisionCache::KeptBasin& basin = memory_.basin(index);
   basin.facet_pairs_at_begin = size;
   const TrianglePairDistance closest =
@@ -86,8 +82,8 @@ void DecisionBasins::extendPartly(std::uint32_t index) {
   for (std::size_t i = 0; i < visited.size() && has_room; ++i) {
     if (is_reached_[i] != 0) continue;
     const std::uint32_t number = memory_.facetPairOf(visited[i].a, visited[i].b, limit_);
-    has_room = number != DecisionCache::kNone && memory_.join(number, index, limit_) &&
-               partFromReached({visited[i].a, visited[i].b}, index);
+    has_room = number != DecisionCache::kNone && memory_.join(number, index, limit_);
+    if (has_room) partFromReached({visited[i].a, visited[i].b}, index);
   }
   Progress progress;
   progress.basin = index;
@@ -100,20 +96,19 @@ void DecisionBasins::extendPartly(std::uint32_t index) {
   restoreBoundary(index);
 }
 
-bool DecisionBasins::partFromReached(const TrianglePair& pair, std::uint32_t index) {
+void DecisionBasins::partFromReached(const TrianglePair& pair, std::uint32_t index) {
   BasinBoundary& boundary = memory_.basin(index).boundary;
   const auto part = [&](TriangleIndex a, TriangleIndex b, const BoundaryElement& element) {
     const std::uint32_t beyond = search_.indexOf(a, b);
-    return beyond == BasinSearch::kNone || is_reached_[beyond] == 0 ||
-           boundary.add(memory_.boundaries(), frame_, element, 0.0, limit_);
+    if (beyond == BasinSearch::kNone || is_reached_[beyond] == 0) return;
+    boundary.add(memory_.boundaries(), frame_, element, 0.0);
   };
   for (const AdjacentTriangle& next : frame_.adjacency_a->row(pair.a.value)) {
-    if (!part(next.triangle, pair.b, {{Side::A, next.from, next.to, pair.b}, next.triangle})) return false;
+    part(next.triangle, pair.b, {{Side::A, next.from, next.to, pair.b}, next.triangle});
   }
   for (const AdjacentTriangle& next : frame_.adjacency_b->row(pair.b.value)) {
-    if (!part(pair.a, next.triangle, {{Side::B, next.from, next.to, pair.a}, next.triangle})) return false;
+    part(pair.a, next.triangle, {{Side::B, next.from, next.to, pair.a}, next.triangle});
   }
-  return true;
 }
 
 bool DecisionBasins::addNext(Progress& progress) {
@@ -126,8 +121,9 @@ bool DecisionBasins::addNext(Progress& progress) {
   const BasinSearch::BoundaryStep& step = search_.boundarySteps()[progress.boundary_steps++];
   if (!search_.isBeyond(step) || memory_.isIn(step.beyond_a, step.beyond_b, index)) return true;
   const TriangleIndex beyond = step.element.side == Side::A ? step.beyond_a : step.beyond_b;
-  return memory_.basin(index).boundary.add(memory_.boundaries(), frame_, {step.element, beyond},
-                                           std::sqrt(step.squared_level), limit_);
+  memory_.basin(index).boundary.add(memory_.boundaries(), frame_, {step.element, beyond},
+                                    std::sqrt(step.squared_level));
+  return true;
 }
 
 }  // namespace concave_distance::detail

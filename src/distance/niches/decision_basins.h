@@ -16,15 +16,15 @@ class DecisionBasins {
       : memory_(memory), search_(search), frame_(frame), counts_(counts), limit_(limit) {}
 
   /// True when the boundary of a kept basin holds, if need be with facet pairs beyond it added. The boundary
-  /// is whole afterwards, because the basin may be asked for again; without memory for that the basin is
-  /// dropped.
+  /// is whole afterwards, because the basin may be asked for again; where the limit does not admit that the
+  /// basin is dropped.
   /// @param meets as in BasinSearch::proceed()
   template <typename Meets>
   bool isEnclosed(std::uint32_t index, const BasinSearch::Levels& levels, const Meets& meets) {
     if (!takeCrossed(index, levels.highest)) return true;
     const BasinSearch::End end =
         memory_.boundaries().has_unmeasured ? BasinSearch::End::Long : searchBeyond(index, levels, meets);
-    if (end == BasinSearch::End::Cut && limit_.hasRefusedTime() && !limit_.hasRefusedMemory()) {
+    if (end == BasinSearch::End::Cut && limit_.hasRefusedTime() && !limit_.hasRefusedPairs()) {
       extendPartly(index);
       return false;
     }
@@ -78,14 +78,16 @@ class DecisionBasins {
 
   /// Returns an empty basin, or kNone.
   std::uint32_t begin(std::uint64_t id, const TrianglePair& around);
-  /// Extends a kept basin by what the last search has visited; without memory it drops it and returns false.
+  /// Extends a kept basin by what the last search has visited; where the limit does not admit that it drops
+  /// it and returns false.
   bool extend(std::uint32_t index);
   /// Does so for a search that time has cut, so that the next one goes on from there: the surroundings of the
   /// facet pairs that it has looked at become boundary, as far as they are not known at a distance of 0.
   void extendPartly(std::uint32_t index);
-  /// Parts a facet pair of the basin from those that the search has only reached. False without memory.
-  bool partFromReached(const TrianglePair& pair, std::uint32_t index);
-  /// Adds the next facet pair, or where all are in it the next step of the boundary. False without memory.
+  /// Parts a facet pair of the basin from those that the search has only reached.
+  void partFromReached(const TrianglePair& pair, std::uint32_t index);
+  /// Adds the next facet pair, or where all are in it the next step of the boundary. False when
+  /// the limit admits no more.
   bool addNext(Progress& progress);
   bool isAdded(const Progress& progress) const {
     return progress.facet_pairs == search_.facet_pairs().size() &&

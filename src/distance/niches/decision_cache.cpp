@@ -51,7 +51,7 @@ void DecisionCache::beginCycle(bool is_tracked) {
 std::uint32_t DecisionCache::facetPairOf(TriangleIndex a, TriangleIndex b, WorkLimit& limit) {
   const std::uint32_t known = table_.find(a, b);
   if (known != PairTable::kAbsent) return known;
-  if (!table_.makeRoom(limit) || !limit.makeRoom(facet_pairs_)) return kNone;
+  if (!limit.admits(facet_pairs_.size() + 1)) return kNone;
   const auto number = static_cast<std::uint32_t>(facet_pairs_.size());
   FacetPair facet_pair;
   facet_pair.a = a;
@@ -72,15 +72,13 @@ void DecisionCache::enterCandidate(std::uint32_t number, std::uint32_t candidate
   }
 }
 
-bool DecisionCache::keepLink(std::uint32_t& number, const Link& link, WorkLimit& limit) {
+void DecisionCache::keepLink(std::uint32_t& number, const Link& link) {
   if (number == kNone) {
-    if (!limit.makeRoom(links_)) return false;
     number = static_cast<std::uint32_t>(links_.size());
     links_.emplace_back();
   }
   links_[number] = link;
   use(number);
-  return true;
 }
 
 std::uint32_t DecisionCache::basinOf(std::uint32_t number, std::uint32_t first) const {
@@ -104,9 +102,8 @@ bool DecisionCache::isIn(TriangleIndex a, TriangleIndex b, std::uint32_t basin) 
   return false;
 }
 
-std::uint32_t DecisionCache::takeBasin(std::uint64_t id, WorkLimit& limit) {
+std::uint32_t DecisionCache::takeBasin(std::uint64_t id) {
   if (free_basins_.empty()) {
-    if (!limit.makeRoom(basins_) || !limit.makeRoom(free_basins_)) return kNone;
     free_basins_.push_back(static_cast<std::uint32_t>(basins_.size()));
     basins_.emplace_back();
   }
@@ -122,7 +119,7 @@ bool DecisionCache::join(std::uint32_t number, std::uint32_t basin, WorkLimit& l
   if (m != kNone) {
     free_membership_ = memberships_[m].next;
   } else {
-    if (!limit.makeRoom(memberships_)) return false;
+    if (!limit.admits(memberships_.size() + 1)) return false;
     m = static_cast<std::uint32_t>(memberships_.size());
     memberships_.emplace_back();
   }
@@ -212,13 +209,6 @@ void DecisionCache::compact() {
       memberships_[m].facet_pair = places[memberships_[m].facet_pair];
     }
   }
-}
-
-std::size_t DecisionCache::memoryBytes() const {
-  return boundaries_.memoryBytes() + table_.memoryBytes() + facet_pairs_.capacity() * sizeof(FacetPair) +
-         (links_.capacity() + spare_links_.capacity()) * sizeof(Link) +
-         memberships_.capacity() * sizeof(Membership) + basins_.capacity() * sizeof(KeptBasin) +
-         live_.capacity() + places_.capacity() * sizeof(std::uint32_t);
 }
 
 }  // namespace concave_distance::detail

@@ -15,7 +15,7 @@ struct BasinProgress {
   std::uint32_t basin = 0xffffffffU;  ///< in the cache, or none
   std::size_t facet_pairs = 0;
   std::size_t boundary_steps = 0;
-  bool is_over = false;  ///< nothing is left to do, or there was no memory
+  bool is_over = false;  ///< nothing is left to do, or the limit admitted no more
 };
 
 /// Keeps from pose to pose what proves decisions: facet pairs (a facet of each body), links of the paths that
@@ -65,7 +65,7 @@ class DecisionCache {
   /// that many cycles have not used.
   void endCut() { was_cut_ = true; }
 
-  /// Returns the number of a facet pair, made where there is none; kNone without memory.
+  /// Returns the number of a facet pair, made where there is none; kNone when the limit admits no more.
   std::uint32_t facetPairOf(TriangleIndex a, TriangleIndex b, WorkLimit& limit);
   FacetPair& facet_pair(std::uint32_t number) { return facet_pairs_[number]; }
   const FacetPair& facet_pair(std::uint32_t number) const { return facet_pairs_[number]; }
@@ -88,8 +88,8 @@ class DecisionCache {
 
   const Link& link(std::uint32_t number) const { return links_[number]; }
   void use(std::uint32_t link) { links_[link].used = cycle_; }
-  /// Makes a link or replaces it. Returns false without memory.
-  bool keepLink(std::uint32_t& number, const Link& link, WorkLimit& limit);
+  /// Makes a link or replaces it.
+  void keepLink(std::uint32_t& number, const Link& link);
   /// Gives a link other points.
   void aim(std::uint32_t link, const Eigen::Vector3d& point_a, const Eigen::Vector3d& point_b) {
     links_[link].point_a = point_a;
@@ -103,15 +103,13 @@ class DecisionCache {
   /// Returns the basin with this id, or kNone where it is no longer kept.
   std::uint32_t basinWith(std::uint64_t id) const;
   bool isIn(TriangleIndex a, TriangleIndex b, std::uint32_t basin) const;
-  /// Returns a basin without facet pairs, or kNone without memory; for an id of 0 it chooses one.
-  std::uint32_t takeBasin(std::uint64_t id, WorkLimit& limit);
-  /// Adds a facet pair to a basin. Returns false without memory.
+  /// Returns a basin without facet pairs; for an id of 0 it chooses one.
+  std::uint32_t takeBasin(std::uint64_t id);
+  /// Adds a facet pair to a basin. Returns false when the limit admits no more.
   bool join(std::uint32_t number, std::uint32_t basin, WorkLimit& limit);
   /// Lets a basin go, a large one over some cycles. Returns whether its place is free at once.
   bool drop(std::uint32_t basin);
   BoundaryPool& boundaries() { return boundaries_; }
-
-  std::size_t memoryBytes() const;
 
  private:
   bool unlink(std::uint32_t basin);

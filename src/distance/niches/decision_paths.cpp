@@ -28,10 +28,8 @@ void DecisionPaths::keepPath(const BasinSearch& search, std::uint32_t start) {
     const std::uint32_t before =
         here.parent == 0 ? start
                          : memory_.facetPairOf(visited[here.parent].a, visited[here.parent].b, limit_);
-    if (before == kNone ||
-        !keepLink(memory_.facet_pair(before).link, closestOver(frame_, here.via), next, here.via)) {
-      return;
-    }
+    if (before == kNone) return;
+    keepLink(memory_.facet_pair(before).link, closestOver(frame_, here.via), next, here.via);
     next = before;
     at = here.parent;
   }
@@ -43,9 +41,9 @@ void DecisionPaths::keepLow(const TrianglePair& facet_pair) {
   keepLink(memory_.facet_pair(number).low, frame_.closestIn(facet_pair).second, number, {});
 }
 
-bool DecisionPaths::keepLink(std::uint32_t& link, const TrianglePairDistance& closest, std::uint32_t next,
+void DecisionPaths::keepLink(std::uint32_t& link, const TrianglePairDistance& closest, std::uint32_t next,
                              const SharedElement& via) {
-  return memory_.keepLink(link, {closest.point_a, frame_.pointInB(closest.point_b), next, via}, limit_);
+  memory_.keepLink(link, {closest.point_a, frame_.pointInB(closest.point_b), next, via});
 }
 
 }  // namespace concave_distance::detail

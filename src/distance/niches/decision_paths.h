@@ -65,7 +65,7 @@ class DecisionPaths {
   double aim(std::uint32_t link) { return aim(link, closestOver(frame_, memory_.link(link).via)); }
   double aim(std::uint32_t link, const TrianglePairDistance& closest);
 
-  bool keepLink(std::uint32_t& link, const TrianglePairDistance& closest, std::uint32_t next,
+  void keepLink(std::uint32_t& link, const TrianglePairDistance& closest, std::uint32_t next,
                 const SharedElement& via);
 
   DecisionCache& memory_;

@@ -138,7 +138,7 @@ void NicheDecider::Stage::search(std::uint32_t i) {
       break;
     default:
       set(i, Decision::Undecided);
-      if (can_suspend && search.lookedAt() >= kLongSearch && !limit_.hasRefusedMemory()) {
+      if (can_suspend && search.lookedAt() >= kLongSearch && !limit_.hasRefusedPairs()) {
         decider_.suspended_.suspend(search, start, frame_);
       }
       break;
@@ -164,7 +164,6 @@ BasinSearch::End NicheDecider::Stage::proceed(BasinSearch& search, std::size_t m
 }
 
 double NicheDecider::Stage::passOf(std::uint32_t i, double highest) const {
-  const MemoryScope memory(limit_);
   const MinimumCandidate& candidate = decider_.judged_[i].candidate;
   const TrianglePair start = frame_.facetPairOf(candidate.a, candidate.b);
   BasinSearch search;  // it may grow large: its memory is not kept

@@ -134,7 +134,7 @@ bool collectFarCandidates(const PairFrame& frame, double cutoff, DistantComponen
   for (std::size_t i = 0; i < frame.pieces_a->count; ++i) {
     for (std::size_t k = 0; k < frame.pieces_b->count; ++k) {
       MinimumCandidate candidate{};
-      const bool may_go_on = !limit.isOver() && limit.makeRoom(candidates);
+      const bool may_go_on = !limit.isOver() && limit.admits(candidates.size() + 1);
       if (!may_go_on || !PiecePair(frame, buffers, i, k).findNearest(candidate)) {
         candidates.resize(before);
         return false;

@@ -32,11 +32,6 @@ struct DistantComponentBuffers {
   TrianglesOfPieces a;
   TrianglesOfPieces b;
   RefinementWorkspace refinement;
-
-  std::size_t memoryBytes() const {
-    return (a.first.capacity() + b.first.capacity()) * sizeof(std::uint32_t) +
-           (a.triangles.capacity() + b.triangles.capacity()) * sizeof(TriangleIndex);
-  }
 };
 
 /// Finds for every pair of pieces the triangles with its nearest points, up to `cutoff`: supporting triangles

@@ -42,13 +42,6 @@ struct LocalMinimaParts {
   void measure(const PairFrame& frame, const LocalMinimaRequest& request, LocalMinima& result,
                WorkLimit& limit);
 
-  std::size_t memoryBytes() const {
-    return sizeof(LocalMinimaParts) + collector.memoryBytes() + decider.memoryBytes() +
-           candidates.capacity() * sizeof(MinimumCandidate) + described.capacity() * sizeof(Described) +
-           is_looked_at.capacity() +
-           (places.capacity() + owners.capacity() + proposed.capacity()) * sizeof(std::size_t);
-  }
-
   CandidateCollector collector;
   NicheDecider decider;
   NicheDescriber describer;
@@ -227,16 +220,12 @@ void LocalMinimaMemory::clear() {
   parts_->decider.clear();
 }
 
-std::size_t LocalMinimaMemory::memoryBytes() const {
-  return parts_ != nullptr ? parts_->memoryBytes() : 0;
-}
-
 void findLocalMinima(const detail::PairFrame& frame, const LocalMinimaRequest& request,
                      LocalMinimaMemory& memory, LocalMinima& result) {
   detail::LocalMinimaParts& parts = memory.parts();
   WorkLimit none;
   WorkLimit& limit = request.limit != nullptr ? *request.limit : none;
-  const bool refused_before = limit.hasRefusedMemory();
+  const bool refused_before = limit.hasRefusedPairs();
   result.niches.clear();
   result.owners.clear();
   result.cost = {};
@@ -271,8 +260,8 @@ void findLocalMinima(const detail::PairFrame& frame, const LocalMinimaRequest& r
     parts.measure(frame, request, result, limit);
   }
   result.cost.searched_pairs = parts.decider.counts().visited_pairs;
-  if ((!all || !decided) && !limit.hasRefusedMemory()) parts.decider.endCut();
-  result.finished = all && decided && !limit.isOver() && limit.hasRefusedMemory() == refused_before;
+  if ((!all || !decided) && !limit.hasRefusedPairs()) parts.decider.endCut();
+  result.finished = all && decided && !limit.isOver() && limit.hasRefusedPairs() == refused_before;
   if (result.finished) parts.collector.renew(frame, request, result.cost, limit);
 }
 
@@ -298,8 +287,6 @@ LocalMinima findLocalMinima(const BodyMesh& a, const BodyMesh& b, const Eigen::I
                             const LocalMinimaRequest& request) {
   LocalMinimaMemory once;
   LocalMinima result;
-  WorkLimit none;
-  const MemoryScope memory(request.limit != nullptr ? *request.limit : none);
   findLocalMinima(detail::PairFrame::withFacets(a, b, a_from_b), request, once, result);
   return result;
 }

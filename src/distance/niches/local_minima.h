@@ -75,7 +75,6 @@ class LocalMinimaMemory {
   LocalMinimaMemory& operator=(LocalMinimaMemory&&) noexcept;
 
   void clear();
-  std::size_t memoryBytes() const;
   detail::LocalMinimaParts& parts();
 
  private:

@@ -43,10 +43,9 @@ bool MeetingPairs::collect(const PairFrame& frame, LocalMinimaCost& cost, WorkLi
                         frame.b.surface().boundingBox().center().cwiseAbs().maxCoeff();
   const double margin = tolerance + 1e-14 * (origin + frame.size);
   open_.clear();
-  if (!limit.makeRoom(open_)) return false;
   open_.emplace_back(0U, 0U);
   while (!open_.empty()) {
-    if (limit.isOverNow() || !limit.makeRoom(open_, 2)) return false;
+    if (limit.isOverNow()) return false;
     const auto [i, j] = open_.back();
     open_.pop_back();
     const TriangleTree::Node& a = tree_a.nodes()[i];
@@ -75,7 +74,7 @@ bool MeetingPairs::collect(const PairFrame& frame, LocalMinimaCost& cost, WorkLi
   return true;
 }
 
-/// Adds a facet pair if it meets and is not there yet. Returns false without memory.
+/// Adds a facet pair if it meets and is not there yet. Returns false when the limit admits no more.
 bool MeetingPairs::look(const PairFrame& frame, TriangleIndex a, TriangleIndex b, double tolerance,
                         WorkLimit& limit) {
   if (table_.find(a, b) != kNone) return true;
@@ -89,7 +88,7 @@ bool MeetingPairs::look(const PairFrame& frame, TriangleIndex a, TriangleIndex b
   const std::uint8_t of_b = metEdges(points_b, plane_a, tolerance, runs_through);
   if (of_a == 0 && of_b == 0) return true;
   const double distance = runs_through ? 0.0 : std::sqrt(facetPairLevels(points_a, points_b).least());
-  if (!limit.makeRoom(pairs_) || !table_.makeRoom(limit)) return false;
+  if (!limit.admits(pairs_.size() + 1)) return false;
   table_.insert(a, b, static_cast<std::uint32_t>(pairs_.size()));
   pairs_.push_back({a, b, distance, {of_a, of_b}});
   return true;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/pair_table.h"
+#include "concave_distance/base/work_limit.h"
 #include "distance/kernels/pair_frame.h"
 #include "distance/minima/local_minima_cost.h"
 
@@ -43,10 +44,6 @@ class MeetingPairs {
   const std::vector<MeetingPair>& pairs() const { return pairs_; }
   /// Returns the index in pairs() of a facet pair, or kNone.
   std::uint32_t find(TriangleIndex a, TriangleIndex b) const { return table_.find(a, b); }
-  std::size_t memoryBytes() const {
-    return pairs_.capacity() * sizeof(MeetingPair) + open_.capacity() * sizeof(TreeNodePair) +
-           table_.memoryBytes();
-  }
 
  private:
   bool look(const PairFrame& frame, TriangleIndex a, TriangleIndex b, double tolerance, WorkLimit& limit);

@@ -99,10 +99,4 @@ std::uint32_t NicheDecider::nicheOf(std::uint32_t of) const {
   return index != kNone && judged_[index].decision == Decision::Niche ? index : kNone;
 }
 
-std::size_t NicheDecider::memoryBytes() const {
-  return memory_.memoryBytes() + judged_.capacity() * sizeof(Judged) +
-         part_candidates_.capacity() * sizeof(std::uint32_t) + search_.memoryBytes() +
-         suspended_.memoryBytes() + path_.memoryBytes();
-}
-
 }  // namespace concave_distance::detail

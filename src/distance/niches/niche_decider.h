@@ -93,7 +93,6 @@ class NicheDecider {
 
   const std::vector<Judged>& judged() const { return judged_; }
   const Counts& counts() const { return counts_; }
-  std::size_t memoryBytes() const;
 
  private:
   class Stage;

@@ -12,11 +12,11 @@ bool OverlapSets::joinAlongEdges(Side side) {
   for (const MetFacet& met : at(side).met) {
     const FacetPoints points = facetPoints(side, met.facet);
     for (std::size_t k = 0; k < points.edgeCount() && count_ > 1; ++k) {
-      if (!hasRoom(side)) return false;
+      if (limit_->isOverNow()) return false;
       const std::size_t next = k + 1 == points.edgeCount() ? 0 : k + 1;
       const NodeIndex from = facets(side).nodes[met.facet.value][k];
       const NodeIndex to = facets(side).nodes[met.facet.value][next];
-      if (!collectHits(side, met, points.corners[k], points.corners[next], static_cast<int>(k))) return false;
+      collectHits(side, met, points.corners[k], points.corners[next], static_cast<int>(k));
       if (!hits_.empty()) {
         joinHits(side, points.corners[k], points.corners[next]);
         joinEnds(side, from, to, (points.corners[next] - points.corners[k]).norm());
@@ -34,8 +34,6 @@ bool OverlapSets::joinAlongEdges(Side side) {
 /// Joins the curves that no edge of their facet meets, and what hangs together where shells meet.
 bool OverlapSets::joinInFacets(Side side) {
   Surface& surface = at(side);
-  is_hole_.clear();
-  if (!limit_->makeRoom(is_hole_, met_->pairs().size())) return false;
   is_hole_.assign(met_->pairs().size(), 1);
   for (const std::uint32_t pair : surface.pairs) {
     if (met_->pairs()[pair].met_edges[side == Side::A ? 0 : 1] != 0)
@@ -47,9 +45,9 @@ bool OverlapSets::joinInFacets(Side side) {
       if (count_ <= 1) return true;
       const std::uint32_t pair = surface.pairs[i];
       if (surface.clusters.find(pair) != pair || is_hole_[pair] == 0) continue;
-      if (!hasRoom(side)) return false;
+      if (limit_->isOverNow()) return false;
       const Vector3d from = pointOf(side, pair);
-      if (!collectHits(side, met, from, points.corners[0], -1)) return false;
+      collectHits(side, met, from, points.corners[0], -1);
       joinHits(side, from, points.corners[0]);
       joinEnds(side, {}, facets(side).nodes[met.facet.value][0], (points.corners[0] - from).norm());
     }
@@ -58,7 +56,7 @@ bool OverlapSets::joinInFacets(Side side) {
   return true;
 }
 
-bool OverlapSets::collectHits(Side side, const MetFacet& met, const Vector3d& from, const Vector3d& to,
+void OverlapSets::collectHits(Side side, const MetFacet& met, const Vector3d& from, const Vector3d& to,
                               int edge) {
   hits_.clear();
   for (std::uint32_t i = met.first; i < met.last; ++i) {
@@ -68,13 +66,11 @@ bool OverlapSets::collectHits(Side side, const MetFacet& met, const Vector3d& fr
     const FacetPoints points = facetPoints(otherOf(side), facetIn(otherOf(side), pair));
     LinePart part;
     if (!FacetPlane(points).isMet(from, to, tolerance_, part)) continue;
-    if (!limit_->makeRoom(hits_)) return false;
     hits_.push_back({part, pair});
   }
   std::sort(hits_.begin(), hits_.end(), [](const Hit& l, const Hit& r) {
     return std::tie(l.part.first, l.pair) < std::tie(r.part.first, r.pair);
   });
-  return true;
 }
 
 void OverlapSets::joinHits(Side side, const Vector3d& from, const Vector3d& to) {

@@ -9,18 +9,11 @@
 namespace concave_distance::detail {
 
 bool OverlapParts::find(const PairFrame& frame, bool is_tracked, LocalMinimaCost& cost, WorkLimit& limit) {
-  if (!is_tracked) {
-    earlier_.clear();
-  } else if (!keepEarlier(limit)) {
-    findNone();
-    return false;
-  }
+  earlier_.clear();
+  if (is_tracked) keepEarlier();
   parts_.clear();
   const bool all = findSets(frame, cost, limit);
-  if (sets_.size() < met_.pairs().size() || !numberParts(limit)) {
-    findNone();
-    return false;
-  }
+  numberParts();
   inherit();
   const bool is_chosen = choosePlaces(frame, limit);
   if (!all) {
@@ -44,11 +37,8 @@ void OverlapParts::findNone() {
 }
 
 /// Keeps the last pose's parts, with the pairs of each.
-bool OverlapParts::keepEarlier(WorkLimit& limit) {
-  earlier_.clear();
+void OverlapParts::keepEarlier() {
   earlier_pairs_.clear();
-  if (!limit.makeRoom(earlier_, parts_.size()) || !limit.makeRoom(earlier_pairs_, order_.size()))
-    return false;
   for (const Part& part : parts_) {
     if (part.id == 0) continue;
     const auto first = static_cast<std::uint32_t>(earlier_pairs_.size());
@@ -58,13 +48,11 @@ bool OverlapParts::keepEarlier(WorkLimit& limit) {
     }
     earlier_.push_back({part.id, first, static_cast<std::uint32_t>(earlier_pairs_.size()), kNone});
   }
-  return true;
 }
 
 bool OverlapParts::findSets(const PairFrame& frame, LocalMinimaCost& cost, WorkLimit& limit) {
   const bool has_all_pairs = met_.collect(frame, cost, limit);
   if (sets_.join(frame, met_, limit) && has_all_pairs) return true;
-  if (sets_.size() < met_.pairs().size()) return false;
   // Sets that were one part at the last pose are taken for one.
   for (const Earlier& part : earlier_) {
     std::uint32_t known = kNone;
@@ -78,14 +66,12 @@ bool OverlapParts::findSets(const PairFrame& frame, LocalMinimaCost& cost, WorkL
   return false;
 }
 
-bool OverlapParts::numberParts(WorkLimit& limit) {
+void OverlapParts::numberParts() {
   const auto count = static_cast<std::uint32_t>(met_.pairs().size());
   part_of_pair_.clear();
   order_.clear();
-  if (!limit.makeRoom(part_of_pair_, count) || !limit.makeRoom(order_, count)) return false;
   for (std::uint32_t pair = 0; pair < count; ++pair) {
     const std::uint32_t set = sets_.setOf(pair);  // the first of the set
-    if (set == pair && !limit.makeRoom(parts_)) return false;
     part_of_pair_.push_back(set == pair ? static_cast<std::uint32_t>(parts_.size()) : part_of_pair_[set]);
     if (set == pair) parts_.emplace_back();
     ++parts_[part_of_pair_.back()].last;
@@ -98,7 +84,6 @@ bool OverlapParts::numberParts(WorkLimit& limit) {
   }
   order_.resize(count);
   for (std::uint32_t pair = 0; pair < count; ++pair) order_[parts_[part_of_pair_[pair]].last++] = pair;
-  return true;
 }
 
 /// Each part is where its nearest pair is that does not meet in the material of other shells.
@@ -148,12 +133,6 @@ std::uint32_t OverlapParts::heirOf(std::uint64_t id) const {
   const auto found =
       std::find_if(earlier_.begin(), earlier_.end(), [&](const Earlier& part) { return part.id == id; });
   return found == earlier_.end() ? kNone : found->heir;
-}
-
-std::size_t OverlapParts::memoryBytes() const {
-  return met_.memoryBytes() + sets_.memoryBytes() + parts_.capacity() * sizeof(Part) +
-         (part_of_pair_.capacity() + order_.capacity()) * sizeof(std::uint32_t) +
-         earlier_.capacity() * sizeof(Earlier) + earlier_pairs_.capacity() * sizeof(TrianglePair);
 }
 
 }  // namespace concave_distance::detail

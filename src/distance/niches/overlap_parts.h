@@ -61,7 +61,6 @@ class OverlapParts {
       }
     }
   }
-  std::size_t memoryBytes() const;
 
  private:
   static constexpr std::uint64_t kIdBit = std::uint64_t{1} << 63U;
@@ -74,9 +73,9 @@ class OverlapParts {
     std::uint32_t heir;
   };
 
-  bool keepEarlier(WorkLimit& limit);
+  void keepEarlier();
   bool findSets(const PairFrame& frame, LocalMinimaCost& cost, WorkLimit& limit);
-  bool numberParts(WorkLimit& limit);
+  void numberParts();
   bool choosePlaces(const PairFrame& frame, WorkLimit& limit);
   void inherit();
 

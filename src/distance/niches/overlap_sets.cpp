@@ -31,7 +31,7 @@ bool OverlapSets::join(const PairFrame& frame, const MeetingPairs& met, WorkLimi
   at(Side::A).may_be_inside = hasMaterial(frame.b);
   at(Side::B).may_be_inside = hasMaterial(frame.a);
   for (const Side side : {Side::A, Side::B}) {
-    if (count_ > 1 && at(side).may_be_inside && !begin(side)) return false;
+    if (count_ > 1 && at(side).may_be_inside) begin(side);
   }
   for (const auto step : {&OverlapSets::joinAlongEdges, &OverlapSets::joinInFacets, &OverlapSets::spread}) {
     for (const Side side : {Side::A, Side::B}) {
@@ -52,10 +52,7 @@ void OverlapSets::unite(std::uint32_t l, std::uint32_t r) {
 /// Joins pairs that have a point in common: what two facets share is within the tolerance of a third one.
 bool OverlapSets::joinCurves() {
   const std::size_t count = met_->pairs().size();
-  sets_.reset(0);
   for (UnionFind* sets : {&sets_, &surfaces_[0].clusters, &surfaces_[1].clusters}) {
-    sets->reset(0);
-    if (!sets->makeRoom(*limit_, count)) return false;
     sets->reset(count);
   }
   count_ = count;
@@ -92,11 +89,12 @@ void OverlapSets::joinNeighbours(Side side, std::uint32_t pair) {
   }
 }
 
-bool OverlapSets::begin(Side side) {
+void OverlapSets::begin(Side side) {
   Surface& surface = at(side);
   const std::size_t vertices = body(side).surface().vertexCount();
   const std::size_t triangles = body(side).surface().triangleCount();
-  if (!reserve(surface.vertices, vertices) || !reserve(surface.facets, triangles)) return false;
+  reserve(surface.vertices, vertices);
+  reserve(surface.facets, triangles);
   if (++surface.stamp == 0) {
     std::fill(surface.vertices.begin(), surface.vertices.end(), Mark{});
     std::fill(surface.facets.begin(), surface.facets.end(), Mark{});
@@ -106,7 +104,6 @@ bool OverlapSets::begin(Side side) {
   surface.waiting.clear();
   surface.met.clear();
   surface.pairs.clear();
-  if (!limit_->makeRoom(surface.pairs, count) || !limit_->makeRoom(surface.met, count)) return false;
   for (std::uint32_t i = 0; i < count; ++i) surface.pairs.push_back(i);
   std::sort(surface.pairs.begin(), surface.pairs.end(), [&](std::uint32_t l, std::uint32_t r) {
     const TriangleIndex of_l = facetIn(side, l);
@@ -119,18 +116,10 @@ bool OverlapSets::begin(Side side) {
     surface.facets[facet.value] = {surface.stamp, static_cast<std::uint32_t>(surface.met.size())};
     surface.met.push_back({facet, first, last});
   }
-  return true;
 }
 
-bool OverlapSets::reserve(std::vector<Mark>& marks, std::size_t count) {
-  if (marks.size() >= count) return true;
-  if (!limit_->makeRoom(marks, count - marks.size())) return false;
-  marks.resize(count);
-  return true;
-}
-
-bool OverlapSets::hasRoom(Side side) {
-  return !limit_->isOverNow() && sets_.makeRoom(*limit_, 8) && limit_->makeRoom(at(side).waiting, 8);
+void OverlapSets::reserve(std::vector<Mark>& marks, std::size_t count) {
+  if (marks.size() < count) marks.resize(count);
 }
 
 bool OverlapSets::isInside(Side side, NodeIndex vertex) {
@@ -171,7 +160,7 @@ bool OverlapSets::spread(Side side) {
       Mark& mark = surface.facets[facet.value];
       if (mark.stamp == surface.stamp) continue;
       mark = {surface.stamp, kNone};
-      if (!hasRoom(side)) return false;
+      if (limit_->isOverNow()) return false;
       const std::uint32_t element = surface.vertices[vertex.value].value;
       for (const NodeIndex node : facets(side).nodes[facet.value]) unite(element, markInside(side, node));
       if (!joinOverJoints(side, facet, false)) return false;
@@ -184,13 +173,12 @@ bool OverlapSets::joinOverJoints(Side side, TriangleIndex facet, bool is_met) {
   const auto& adjacency = side == Side::A ? *frame_->adjacency_a : *frame_->adjacency_b;
   for (const AdjacentTriangle& next : adjacency.row(facet.value)) {
     if (!PairFrame::isJoint(body(side), next)) continue;
-    if (!hasRoom(side)) return false;
+    if (limit_->isOverNow()) return false;
     Vector3d middle = 0.5 * (frame_->ownVertex(side, next.from) + frame_->ownVertex(side, next.to));
     if (side == Side::B) middle = frame_->rotation * middle + frame_->offset;
     if (is_met && !holds(otherOf(side), middle)) continue;
     const std::uint32_t here = elementAt(side, facet, middle);
     unite(here, elementAt(side, next.triangle, middle));
-    if (limit_->hasRefusedMemory()) return false;
   }
   return true;
 }
@@ -208,7 +196,6 @@ bool OverlapSets::joinAlongRay(std::uint32_t pair) {
   static const Vector3d direction = Vector3d(0.8431, 0.2749, 0.4620).normalized();
   const Vector3d from = pointOf(Side::A, pair);
   ray_hits_.clear();
-  bool has_room = true;
   for (const Side side : {Side::A, Side::B}) {
     const Vector3d origin = inBody(side, from);
     const Vector3d along = side == Side::A ? direction : Vector3d(frame_->rotation.transpose() * direction);
@@ -219,12 +206,10 @@ bool OverlapSets::joinAlongRay(std::uint32_t pair) {
       if (body(side).shellContacts().isHidden(t)) return false;
       const ShearedRay::Meeting met = ray.meeting(cornersOf(mesh, t));
       if (met.side == 0 || !(met.height > 0.0)) return false;
-      has_room = limit_->makeRoom(ray_hits_);
-      if (has_room) ray_hits_.push_back({met.height / (met.weight * longest_part), side, t});
-      return !has_room;
+      ray_hits_.push_back({met.height / (met.weight * longest_part), side, t});
+      return false;
     });
   }
-  if (!has_room) return false;
   std::sort(ray_hits_.begin(), ray_hits_.end(), [](const RayHit& l, const RayHit& r) {
     return std::tie(l.at, l.side, l.triangle) < std::tie(r.at, r.side, r.triangle);
   });
@@ -235,7 +220,7 @@ bool OverlapSets::joinAlongRay(std::uint32_t pair) {
   double reached = 0.0;
   const RayHit* last = nullptr;
   for (const RayHit& hit : ray_hits_) {
-    if (!hasRoom(Side::A) || !hasRoom(Side::B)) return false;
+    if (limit_->isOverNow()) return false;
     const Vector3d middle = from + 0.5 * (reached + hit.at) * direction;
     if (hit.at - reached > kLeastGap * tolerance_ && holds(Side::A, middle) && holds(Side::B, middle)) {
       const std::uint32_t before = last == nullptr ? pair : element_at(*last);
@@ -244,24 +229,13 @@ bool OverlapSets::joinAlongRay(std::uint32_t pair) {
     reached = hit.at;
     last = &hit;
   }
-  return !limit_->hasRefusedMemory();
+  return true;
 }
 
 bool OverlapSets::holds(Side of, const Vector3d& point) const {
   const MeshTopology& topology = body(of).topology();
   return containsPoint(body(of).tree(), body(of).surface(), topology.shell_is_closed,
                        topology.shell_of_triangle, inBody(of, point));
-}
-
-std::size_t OverlapSets::memoryBytes() const {
-  std::size_t bytes = sets_.memoryBytes() + hits_.capacity() * sizeof(Hit) +
-                      ray_hits_.capacity() * sizeof(RayHit) + is_hole_.capacity();
-  for (const Surface& surface : surfaces_) {
-    bytes += surface.pairs.capacity() * sizeof(std::uint32_t) + surface.met.capacity() * sizeof(MetFacet) +
-             surface.clusters.memoryBytes() + surface.waiting.capacity() * sizeof(NodeIndex) +
-             (surface.vertices.capacity() + surface.facets.capacity()) * sizeof(Mark);
-  }
-  return bytes;
 }
 
 }  // namespace concave_distance::detail

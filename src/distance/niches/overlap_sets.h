@@ -30,7 +30,6 @@ class OverlapSets {
   std::size_t size() const { return sets_.size(); }
   /// Returns the representative, a pair, of the set that holds a pair.
   std::uint32_t setOf(std::uint32_t pair) { return sets_.find(pair); }
-  std::size_t memoryBytes() const;
 
  private:
   static constexpr std::uint32_t kNone = 0xffffffffU;
@@ -73,10 +72,8 @@ class OverlapSets {
 
   bool joinCurves();
   void joinNeighbours(Side side, std::uint32_t pair);
-  bool begin(Side side);
-  bool reserve(std::vector<Mark>& marks, std::size_t count);
-  /// Returns whether there is time, and room for what one facet adds.
-  bool hasRoom(Side side);
+  void begin(Side side);
+  static void reserve(std::vector<Mark>& marks, std::size_t count);
   bool joinAlongEdges(Side side);
   bool joinInFacets(Side side);
   bool joinOverJoints(Side side, TriangleIndex facet, bool is_met);
@@ -86,7 +83,7 @@ class OverlapSets {
 
   /// Puts where a line in a met facet meets the other body into hits_, in order.
   /// @param edge of the facet that the line is, or -1
-  bool collectHits(Side side, const MetFacet& met, const Eigen::Vector3d& from, const Eigen::Vector3d& to,
+  void collectHits(Side side, const MetFacet& met, const Eigen::Vector3d& from, const Eigen::Vector3d& to,
                    int edge);
   /// Joins pairs that follow each other along the line of hits_, where what is between them is inside.
   void joinHits(Side side, const Eigen::Vector3d& from, const Eigen::Vector3d& to);

@@ -25,7 +25,7 @@ bool SuspendedSearch::goOn(DecisionCache& memory, WorkLimit& limit) {
   const BasinSearch::End end =
       search_.proceed(began_->frame, std::numeric_limits<std::size_t>::max(), never, never, limit);
   visited_ += static_cast<std::uint32_t>(search_.lookedAt() - before);
-  bool is_over = limit.hasRefusedMemory();
+  bool is_over = limit.hasRefusedPairs();
   if (end == BasinSearch::End::Enclosed) {
     DecisionCounts counts;
     DecisionBasins(memory, search_, began_->frame, counts, limit).keepSome(began_->start, kept_);

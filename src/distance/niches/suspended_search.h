@@ -27,7 +27,6 @@ class SuspendedSearch {
 
   /// Returns the facet pairs looked at since the last call.
   std::uint32_t takeVisited() { return std::exchange(visited_, 0); }
-  std::size_t memoryBytes() const { return search_.memoryBytes(); }
 
  private:
   struct Began {

@@ -23,9 +23,6 @@ struct CompressedRows {
     const T& operator[](std::size_t i) const { return first[i]; }
   };
   Row row(std::size_t i) const { return {values.data() + offsets[i], values.data() + offsets[i + 1]}; }
-  std::size_t memoryBytes() const {
-    return offsets.capacity() * sizeof(std::uint32_t) + values.capacity() * sizeof(T);
-  }
 };
 
 /// Fills `count` rows, each in the order in which its values come.

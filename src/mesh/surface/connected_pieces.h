@@ -12,7 +12,6 @@ namespace concave_distance {
 struct ConnectedPieces {
   std::vector<std::uint32_t> piece_of_triangle;
   std::uint32_t count = 0;
-  std::size_t memoryBytes() const { return piece_of_triangle.capacity() * sizeof(std::uint32_t); }
 };
 
 /// Numbered in the order of their first triangles. O(n).

@@ -18,10 +18,6 @@ struct Facets {
   std::vector<std::array<NodeIndex, 4>> nodes;
 
   bool isQuad(TriangleIndex facet) const { return second[facet.value] != kNoTriangle; }
-  std::size_t memoryBytes() const {
-    return (facet_of_triangle.capacity() + second.capacity()) * sizeof(TriangleIndex) +
-           nodes.capacity() * sizeof(nodes.front());
-  }
 };
 
 /// Joins triangles of one shell, wound alike, that have an edge in common with no third one. No point of a

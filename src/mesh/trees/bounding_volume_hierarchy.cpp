@@ -249,9 +249,4 @@ OrientedBox BoundingVolumeHierarchy::box(Slot slot) const {
   return box;
 }
 
-std::size_t BoundingVolumeHierarchy::memoryBytes() const {
-  return nodes_.capacity() * sizeof(Node) + single_nodes_.capacity() * sizeof(SingleNode) +
-         leaves_.capacity() * sizeof(Leaf) + subtree_of_node_.capacity();
-}
-
 }  // namespace concave_distance

@@ -72,7 +72,6 @@ class BoundingVolumeHierarchy {
   /// below the nodes of its subtree. How far any point of a node has moved is bounded by its subtree.
   const std::vector<Slot>& subtrees() const { return subtrees_; }
   std::uint8_t subtreeOfNode(std::uint32_t node) const { return subtree_of_node_[node]; }
-  std::size_t memoryBytes() const;
 
  private:
   void roundNodes();

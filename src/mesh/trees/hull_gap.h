@@ -29,8 +29,6 @@ struct HullGap {
   /// well. Empty where that is so for a quarter of them.
   std::vector<bool> behind;
   std::vector<Dent> dents;  ///< empty with `behind`
-
-  std::size_t memoryBytes() const { return behind.capacity() / 8 + dents.capacity() * sizeof(Dent); }
 };
 
 /// A wider gap, as a share of the diameter, is not looked for: it would tell nothing of bodies that are near.

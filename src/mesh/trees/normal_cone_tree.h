@@ -83,9 +83,6 @@ class NormalConeTree {
   std::uint32_t child(Slot slot) const { return groups_[slot].child; }
   const std::vector<Subtree>& subtrees() const { return subtrees_; }
   std::uint32_t subtreeOf(Slot slot) const { return groups_[slot].subtree; }
-  std::size_t memoryBytes() const {
-    return groups_.capacity() * sizeof(Group) + items_.capacity() * sizeof(Item);
-  }
 
  private:
   void chooseSubtrees();

@@ -26,7 +26,6 @@ struct ShellContacts {
 
   bool isEmpty() const { return joints.empty() && hidden.empty(); }
   bool isHidden(TriangleIndex t) const { return !hidden.empty() && hidden[t.value]; }
-  std::size_t memoryBytes() const { return joints.capacity() * sizeof(Joint) + hidden.capacity() / 8; }
 };
 
 /// Calls visit(vertex) for those that triangles in sight have in common with `vertex`, some of them twice.

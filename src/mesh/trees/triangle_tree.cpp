@@ -184,8 +184,4 @@ TriangleTree::TriangleTree(const SurfaceMesh& mesh) {
   nodes_.shrink_to_fit();
 }
 
-std::size_t TriangleTree::memoryBytes() const {
-  return nodes_.capacity() * sizeof(Node) + order_.capacity() * sizeof(TriangleIndex);
-}
-
 }  // namespace concave_distance

@@ -25,7 +25,6 @@ class TriangleTree {
   const std::vector<Node>& nodes() const { return nodes_; }
   /// Returns the triangles in leaf order: a leaf holds order()[first .. first + count).
   const std::vector<TriangleIndex>& order() const { return order_; }
-  std::size_t memoryBytes() const;
 
  private:
   std::vector<Node> nodes_;

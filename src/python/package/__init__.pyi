@@ -173,7 +173,7 @@ class PairTracker:
         largest_niche_count: int = ...,
         hidden: bool = ...,
         seed: int = ...,
-        memory_limit: int = ...,
+        facet_pair_limit: int = ...,
         prominence_limit: _Limit = ...,
         keep_through_material: bool = ...,
         signed_values: bool = ...,

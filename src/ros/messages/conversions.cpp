@@ -270,7 +270,6 @@ BodyInfo toBodyInfo(const SceneBody& body) {
   message.grid_nodes = static_cast<std::uint32_t>(prepared.grid_nodes);
   message.max_edge_length = prepared.max_edge_length;
   message.diameter = body.mesh->diameter();
-  message.memory = body.mesh->memoryBytes();
   message.closed = static_cast<std::uint8_t>(body.mesh->topology().allShellsClosed());
   message.in_robot_model = static_cast<std::uint8_t>(body.in_robot_model);
   message.repair = body.repair.summary();

@@ -233,16 +233,16 @@ ParameterTable<L> ofRequests() {
           .from(1e-3)
           .to(3600.0),
       count<L>(
-          "query_memory_mb", [](auto& l) -> auto& { return l.query_memory_mb; },
-          "working memory of one query; as much again for all answers of one call, in equal shares")
-          .inUnit("MiB")
-          .from(1.0)
-          .to(1e6),
-      count<L>(
           "largest_query_count", [](auto& l) -> auto& { return l.largest_query_count; },
           "queries in one call of `get_distances`")
           .from(1.0)
           .to(1e6),
+      count<L>(
+          "largest_niche_count", [](auto& l) -> auto& { return l.largest_niche_count; },
+          "niches and regions of contact in all answers of one call, in equal shares; an answer takes about "
+          "1 kB of memory for each")
+          .from(1.0)
+          .to(1e8),
       number<L>(
           "clearance_seconds", [](auto& l) -> auto& { return l.clearance_seconds; },
           "time for one call of `get_clearance`; what is not proven by then has the status "

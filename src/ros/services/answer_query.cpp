@@ -23,10 +23,6 @@
 namespace concave_distance {
 namespace {
 
-// Bytes: once in the answer and about as much again where it is serialised.
-constexpr std::size_t kNicheBytes = 2 * (sizeof(Niche) + sizeof(NicheChange));
-constexpr std::size_t kContactBytes = 2 * sizeof(Contact);
-
 /// Says where a body is: rigidly at `frame_from_body` in a tf frame.
 struct BodyPlace {
   std::string frame;
@@ -132,29 +128,24 @@ QueryAnswer outOfTime(const DistanceQuery& query, const PairHeading& heading) {
   return answer;
 }
 
-std::uint32_t nichesWithin(const QueryContext& context) {
-  return static_cast<std::uint32_t>(std::clamp<std::size_t>(context.answer_limit / kNicheBytes, 1,
-                                                            std::numeric_limits<std::uint32_t>::max()));
-}
-
 PairContactState tooManyContacts(std::size_t count, const PairHeading& heading) {
   PairStatus status;
   status.code = PairStatus::MEMORY_EXHAUSTED;
   status.message = std::to_string(count) +
-                   " regions of contact need more memory than this answer may take (send fewer queries in "
-                   "one call, or raise ~limits/query_memory_mb)";
+                   " regions of contact are more than this answer may have (send fewer queries in one "
+                   "call, or raise ~limits/largest_niche_count)";
   return emptyContacts(heading, status);
 }
 
-// The regions of overlap at one pose, from nothing; no forces. At most `bytes` of them.
+// The regions of overlap at one pose, from nothing; no forces. At most `largest_count` of them.
 PairContactState findContacts(const SceneBody& body_a, const SceneBody& body_b, const PairSolution& solution,
-                              const PairHeading& heading, WorkLimit limit, std::size_t bytes) {
+                              const PairHeading& heading, WorkLimit limit, std::size_t largest_count) {
   EffectSettings regions;
   regions.interference = true;
   PairEffects effects(body_a.mesh, body_b.mesh, regions, inContact(body_a.material, body_b.material));
   PairContacts contacts;
   effects.update(solution, RelativeTwist(), 0.0, contacts, &limit);
-  if (contacts.regions.size() > bytes / kContactBytes) {
+  if (contacts.regions.size() > largest_count) {
     return tooManyContacts(contacts.regions.size(), heading);
   }
   for (ContactRegion& region : contacts.regions) {
@@ -216,8 +207,8 @@ QueryAnswer answer(const DistanceQuery& query, const Scene& scene, const QueryCo
     return outOfTime(query, heading);
   }
   parameters.time_budget = std::min(parameters.time_budget, left);
-  parameters.memory_limit = context.memory_limit;
-  parameters.largest_niche_count = std::min(parameters.largest_niche_count, nichesWithin(context));
+  parameters.largest_niche_count =
+      std::min(parameters.largest_niche_count, std::max(1U, context.largest_niche_count));
   parameters.stop = context.stop;
   const PairSolution solution =
       solveOnce(heading.pair, body_a.mesh, body_b.mesh, parameters, transforms.a_from_b);
@@ -226,10 +217,11 @@ QueryAnswer answer(const DistanceQuery& query, const Scene& scene, const QueryCo
   }
   answer.result = toNiches(heading, solution);
   if (query.with_contacts != 0) {
-    const std::size_t taken = answer.result.niches.size() * kNicheBytes;
+    const std::size_t taken = answer.result.niches.size();
+    const std::size_t most = context.largest_niche_count;
     answer.contacts =
         findContacts(body_a, body_b, solution, heading, remainingWork(parameters, solution.solve_seconds),
-                     context.answer_limit - std::min(taken, context.answer_limit));
+                     most - std::min(taken, most));
   }
   return answer;
 }

@@ -14,6 +14,7 @@
 
 #include "concave_distance/kinematics/scene_kinematics.h"
 #include "concave_distance/scene/scene.h"
+#include "node_limits.h"
 #include "ros/tf/transform_buffer.h"
 
 namespace concave_distance {
@@ -29,10 +30,8 @@ struct QueryContext {
   /// The joints of the scene's robots; called for queries at joint positions alone. @throws Error without
   /// them
   std::function<std::shared_ptr<const SceneKinematics>()> joints = nullptr;
-  const std::atomic<bool>* stop = nullptr;                      ///< set: running queries end, no other begins
-  std::size_t memory_limit = TrackerParameters().memory_limit;  ///< bytes, of one query's solve
-  std::size_t answer_limit = TrackerParameters().memory_limit;  ///< bytes, of the niches and contacts of one
-                                                                ///< answer, while it is kept and sent
+  const std::atomic<bool>* stop = nullptr;  ///< set: running queries end, no other begins
+  std::uint32_t largest_niche_count = NodeLimits().largest_niche_count;  ///< with contacts, in one answer
 };
 
 /// The answer to one query.

@@ -20,7 +20,6 @@ namespace {
 constexpr std::size_t kMostBodiesNamed = 8;
 constexpr std::size_t kMostPairs = 1000;  // listed in an answer
 constexpr double kUsualTolerance = 1e-3;  // m
-constexpr std::size_t kSampleBytes = 400;
 
 void requireFewWaypoints(std::size_t count, const NodeLimits& limits) {
   if (count <= limits.largest_waypoint_count) return;
@@ -195,8 +194,6 @@ ClearanceParameters clearanceParametersOf(const GetClearanceRequest& request, co
   parameters.each_pair = request.each_pair != 0;
   parameters.niches = request.with_niches != 0;
   parameters.threads = 1;  // the cycle keeps the others
-  parameters.sample_limit = std::min<std::uint64_t>(
-      parameters.sample_limit, (std::uint64_t{limits.query_memory_mb} << 20U) / kSampleBytes);
   return parameters;
 }
 

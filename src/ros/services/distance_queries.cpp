@@ -36,8 +36,7 @@ QueryContext DistanceQueries::currentContext(std::chrono::steady_clock::time_poi
                                              std::size_t queries) {
   QueryContext context = context_;
   context.stop = &gate_.stopped();
-  context.memory_limit = std::size_t{limits_.query_memory_mb} << 20U;
-  context.answer_limit = context.memory_limit / queries;
+  context.largest_niche_count = static_cast<std::uint32_t>(limits_.largest_niche_count / queries);
   context.deadline = arrival + std::chrono::duration_cast<std::chrono::steady_clock::duration>(
                                    std::chrono::duration<double>(limits_.query_seconds));
   return context;

@@ -9,8 +9,8 @@ struct NodeLimits {
   std::uint32_t service_threads = 2;  ///< requests of get_distance, get_distances and add_body at one time
   std::uint32_t service_queue = 8;    ///< further ones that wait; the next is refused
   double query_seconds = 10.0;        ///< for one call of get_distance or get_distances
-  std::uint32_t query_memory_mb = 512;
   std::uint32_t largest_query_count = 10'000;     ///< in one call of get_distances
+  std::uint32_t largest_niche_count = 1'000'000;  ///< of all answers of such a call, and of their contacts
   double clearance_seconds = 60.0;                ///< for one call of get_clearance
   std::uint32_t largest_waypoint_count = 10'000;  ///< of its motion
   std::uint32_t largest_body_count = 20'000;

@@ -74,10 +74,6 @@ const MeshMetric* BodyGrid::metricIfMade() const {
   return made != nullptr ? made->metric.get() : nullptr;
 }
 
-std::size_t BodyGrid::memoryBytes() const {
-  return sizeof(BodyGrid) + nodes_.memoryBytes() + measured_.memoryBytes();
-}
-
 const BodyGrid& gridOf(const BodyMesh& body) {
   const BodyAttachment* kept = body.attachment();
   if (kept == nullptr) kept = &body.attach(std::make_unique<BodyGrid>(body));

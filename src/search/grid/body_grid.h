@@ -15,8 +15,6 @@ struct GraphMetric {
   std::unique_ptr<MeshMetric> metric;
   double geodesic_extent = 0.0;
   double protrusion_spacing = 0.0;
-
-  std::size_t memoryBytes() const { return metric->memoryBytes(); }
 };
 
 /// Holds what the search needs of one body: the nodes it moves on and the mesh metric. Kept with the body, so
@@ -45,8 +43,6 @@ class BodyGrid final : public BodyAttachment {
   const MeshMetric* metricIfMade() const;
   /// Takes memory for the metric's matrices from the body's limit, at the first call; false without room.
   bool reserveMatrices() const;
-  /// Memory of the parts made so far.
-  std::size_t memoryBytes() const override;
 
  private:
   struct Reserved {

@@ -84,8 +84,4 @@ bool MeshMetric::wantsMatrices(std::size_t node_count, std::size_t matrix_node_l
   return node_count <= std::min(matrix_node_limit, kLargestPredecessor);
 }
 
-std::size_t MeshMetric::memoryBytes() const {
-  return distance_.size() * sizeof(float) + predecessor_.size() * sizeof(std::uint16_t);
-}
-
 }  // namespace concave_distance

@@ -38,7 +38,6 @@ class MeshMetric {
   NodeIndex matrixPredecessor(NodeIndex from, NodeIndex to) const {
     return NodeIndex{std::uint32_t{predecessor_[from.value * node_count_ + to.value]}};
   }
-  std::size_t memoryBytes() const;
 
  private:
   const NodeGraph* graph_;
@@ -67,8 +66,6 @@ class MeshMetricQuery {
   /// Beyond the matrices only: a node within `radius` of `from`, all about equally likely when `fraction` is
   /// uniform in [0, 1).
   NodeIndex nodeInBall(NodeIndex from, double radius, double fraction);
-
-  std::size_t memoryBytes() const;
 
  private:
   /// A seat in a ball's hash table.

@@ -50,13 +50,6 @@ void MeshMetricQuery::allocate() {
   open_.reserve(nodes);
 }
 
-std::size_t MeshMetricQuery::memoryBytes() const {
-  return ball_entries_.capacity() * sizeof(BallEntry) + balls_.capacity() * sizeof(Ball) +
-         ball_of_node_.capacity() * sizeof(std::uint32_t) + path_length_.capacity() * sizeof(double) +
-         (predecessor_.capacity() + reached_.capacity()) * sizeof(NodeIndex) +
-         open_.capacity() * sizeof(Reached);
-}
-
 void MeshMetricQuery::clearSearch() {
   for (const NodeIndex node : reached_) {
     path_length_[node.value] = kInfinity;

@@ -125,11 +125,6 @@ void setNeighbourhoods(NodeGraph& graph, const Eigen::Vector3d& origin) {
 
 }  // namespace
 
-std::size_t NodeGraph::memoryBytes() const {
-  return positions.size() * sizeof(Eigen::Vector3d) + neighbourhoods.size() * sizeof(Neighbourhood) +
-         edges.values.size() * sizeof(Edge) + (edges.offsets.size() + shell.size()) * sizeof(std::uint32_t);
-}
-
 NodeGraph buildNodeGraph(const SurfaceMesh& grid) {
   std::vector<std::pair<NodeIndex, NodeIndex>> neighbours;
   neighbours.reserve(3 * grid.triangleCount());

@@ -43,7 +43,6 @@ struct NodeGraph {
   double length_quantum = 0.0;
 
   std::size_t nodeCount() const { return positions.size(); }
-  std::size_t memoryBytes() const;
 };
 
 /// Nodes that no triangle uses are left without edges and form shells of their own; shells are numbered by

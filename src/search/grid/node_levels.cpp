@@ -32,15 +32,6 @@ ThinnedGraph coarsen(const NodeGraph& graph) {
 
 }  // namespace
 
-std::size_t NodeLevels::memoryBytes() const {
-  std::size_t bytes = 0;
-  for (const NodeLevel& level : levels) {
-    bytes += level.graph.memoryBytes() +
-             (level.finer_node.size() + level.node_of_finer.size()) * sizeof(NodeIndex);
-  }
-  return bytes;
-}
-
 NodeLevels buildNodeLevels(const NodeGraph& graph) {
   NodeLevels all;
   if (graph.nodeCount() < NodeLevels::kWorthwhile) {

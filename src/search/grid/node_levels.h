@@ -24,7 +24,6 @@ struct NodeLevels {
   static constexpr std::size_t kCoarsest = 150;
 
   std::vector<NodeLevel> levels;
-  std::size_t memoryBytes() const;
 };
 
 NodeLevels buildNodeLevels(const NodeGraph& graph);

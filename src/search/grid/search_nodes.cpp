@@ -7,12 +7,6 @@
 
 namespace concave_distance {
 
-std::size_t SearchNodes::memoryBytes() const {
-  return grid.memoryBytes() + graph.memoryBytes() + levels.memoryBytes() +
-         original_triangle_of_node.size() * sizeof(TriangleIndex) +
-         graph_node_of_vertex.size() * sizeof(NodeIndex);
-}
-
 SearchNodes makeSearchNodes(const SurfaceMesh& surface, const BodyMeshOptions& options,
                             const std::string& where) {
   SearchNodes nodes;

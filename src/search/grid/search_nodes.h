@@ -29,7 +29,6 @@ struct SearchNodes {
   NodeIndex graphNode(NodeIndex surface_vertex) const {
     return thinned() ? graph_node_of_vertex[surface_vertex.value] : surface_vertex;
   }
-  std::size_t memoryBytes() const;
 };
 
 /// O(n log n). @throws Error (naming `where`) when the edge length is not positive and finite; as

@@ -26,7 +26,7 @@ using test::makeBumpyBall;
 using Body = std::shared_ptr<const BodyMesh>;
 using Bytes = std::vector<std::uint64_t>;
 constexpr std::size_t kSlicedFrom = 1024;  // expired pairs
-constexpr std::size_t kAllMemory = std::numeric_limits<std::size_t>::max();
+constexpr std::size_t kAllPairs = std::numeric_limits<std::size_t>::max();
 
 template <typename Work>
 void executeWith(int threads, const Work& work) {
@@ -67,7 +67,7 @@ struct Tracked {
 };
 
 /// Cold, along a motion that becomes faster, and cold once more.
-Tracked track(const Body& a, const Body& b, const test::Motion& motion, std::size_t memory, int threads) {
+Tracked track(const Body& a, const Body& b, const test::Motion& motion, std::size_t pairs, int threads) {
   Tracked tracked;
   executeWith(threads, [&] {
     MinimaTracker front(kSlicedFrom);
@@ -75,8 +75,7 @@ Tracked track(const Body& a, const Body& b, const test::Motion& motion, std::siz
     for (int k = 0; k < 12; ++k) {
       if (k == 9) front.clear();
       t += k == 5 ? 0.0 : 1e-3 * std::pow(2.0, k);
-      WorkLimit limit(WorkLimit::Clock::now(), kInfinity, memory, nullptr);
-      limit.setTaken(front.memoryBytes());
+      WorkLimit limit(WorkLimit::Clock::now(), kInfinity, pairs, nullptr);
       std::vector<MinimumCandidate> candidates;
       front.collect(PairFrame::withFacets(*a, *b, motion.at(t)), NormalSides::Outside, kInfinity, candidates,
                     limit);
@@ -95,13 +94,13 @@ TEST(ConeSlices, LeaveTheSameBytesForAnyNumberOfThreads) {
     const Body a = test::makeBody(makeBumpyBall(0.5, 8e-4, 9.0 + run));
     const Body b = test::makeBody(makeBumpyBall(0.3, 8e-4, 5.0 + run));
     const test::Motion motion = test::randomMotion(engine);
-    for (const std::size_t memory : {kAllMemory, std::size_t{3} << 20U}) {
-      SCOPED_TRACE("run " + std::to_string(run) + ", memory " + std::to_string(memory));
-      const Tracked alone = track(a, b, motion, memory, 1);
+    for (const std::size_t pairs : {kAllPairs, std::size_t{20'000}}) {
+      SCOPED_TRACE("run " + std::to_string(run) + ", pairs " + std::to_string(pairs));
+      const Tracked alone = track(a, b, motion, pairs, 1);
       cold_slices += alone.cold_slices;
       warm_slices += alone.warm_slices;
-      EXPECT_EQ(track(a, b, motion, memory, 2).bytes, alone.bytes);
-      EXPECT_EQ(track(a, b, motion, memory, 8).bytes, alone.bytes);
+      EXPECT_EQ(track(a, b, motion, pairs, 2).bytes, alone.bytes);
+      EXPECT_EQ(track(a, b, motion, pairs, 8).bytes, alone.bytes);
     }
   }
   EXPECT_GT(cold_slices, 0U);
@@ -122,8 +121,8 @@ TEST(ConeSlices, LoseNoPairWhereALimitEndsThem) {
         SCOPED_TRACE("run " + std::to_string(run) + ", cycle " + std::to_string(k));
         const Eigen::Isometry3d pose = motion.at(0.03 * k);
         const double seconds = k % 3 == 1 ? kInfinity : std::pow(10.0, -4.5 + 2.0 * uniformUnit(engine));
-        const std::size_t memory = k % 3 == 0 ? kAllMemory : std::size_t{1} << (14U + run % 7U);
-        WorkLimit limit(WorkLimit::Clock::now(), seconds, memory, nullptr);
+        const std::size_t pairs = k % 3 == 0 ? kAllPairs : std::size_t{1} << (8U + run % 7U);
+        WorkLimit limit(WorkLimit::Clock::now(), seconds, pairs, nullptr);
         std::vector<MinimumCandidate> candidates;
         front.collect(PairFrame::withFacets(*a, *b, pose), NormalSides::Outside, kInfinity, candidates,
                       limit);

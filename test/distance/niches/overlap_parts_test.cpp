@@ -201,15 +201,15 @@ TEST(OverlapParts, AreThoseOfPiecesCutAndJoined) {
   EXPECT_GT(several, 40U);
 }
 
-// Whatever memory there is, parts are right or said to be unknown.
-TEST(OverlapParts, AreRightOrUnknownForAnyLimitOfMemory) {
+// Whatever number of pairs is admitted, parts are right or said to be unknown.
+TEST(OverlapParts, AreRightOrUnknownForAnyLimitOfPairs) {
   const Body a = makeBody(plate());
   const Body b = makeBody(test::makeComb(4));
   const PairFrame frame = PairFrame::withFacets(*a, *b, translation({-0.7, -0.2, 0.0}));
   std::size_t cut = 0;
   bool is_complete = false;
-  for (std::size_t memory = 0; !is_complete; memory += 256) {
-    WorkLimit limit(WorkLimit::Clock::now(), std::numeric_limits<double>::infinity(), memory, nullptr);
+  for (std::size_t pairs = 0; !is_complete; ++pairs) {
+    WorkLimit limit(WorkLimit::Clock::now(), std::numeric_limits<double>::infinity(), pairs, nullptr);
     OverlapParts overlap;
     LocalMinimaCost cost;
     is_complete = overlap.find(frame, true, cost, limit);
@@ -221,10 +221,10 @@ TEST(OverlapParts, AreRightOrUnknownForAnyLimitOfMemory) {
       EXPECT_EQ(niches, 4);
     } else {
       ++cut;
-      EXPECT_TRUE(limit.hasRefusedMemory());
+      EXPECT_TRUE(limit.hasRefusedPairs());
       EXPECT_LE(niches, 1);
     }
-    ASSERT_LT(memory, std::size_t{1} << 20U);
+    ASSERT_LT(pairs, 10000U);
   }
   EXPECT_GT(cut, 10U);
 }

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "support/body_pairs.h"
+#include "support/count_allocations.h"
 
 namespace concave_distance::bounding_volume_hierarchy_test {
 namespace {
@@ -106,8 +107,10 @@ TEST(BoundingVolumeHierarchy, BoxesOfFlatPiecesAreFlat) {
 
 TEST(BoundingVolumeHierarchy, StaysSmall) {
   const SurfaceMesh surface = makeSphere(0.5, 2e-5);
-  const Hierarchy hierarchy(surface, TriangleTree(surface));
-  EXPECT_LE(static_cast<double>(hierarchy.memoryBytes()),
+  const TriangleTree tree(surface);
+  const std::size_t before = allocated_bytes;
+  const Hierarchy hierarchy(surface, tree);
+  EXPECT_LE(static_cast<double>(allocated_bytes - before),
             220.0 * static_cast<double>(surface.triangleCount()));
 }
 

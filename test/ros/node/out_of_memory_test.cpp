@@ -8,10 +8,13 @@
 #include <optional>
 #include <vector>
 
+#include "concave_distance/tracking/pair_tracker.h"
 #include "ros/box_scene.h"
 #include "ros/node/distance_cycle.h"
 #include "ros/pair_demands.h"
 #include "ros/services/answer_query.h"
+#include "support/body_pairs.h"
+#include "support/concave_shapes.h"
 #include "support/fail_allocations.h"
 
 namespace concave_distance::out_of_memory_test {
@@ -30,6 +33,11 @@ bool failsAfter(std::size_t allocations, const std::function<void()>& act) {
     return true;
   }
   return false;
+}
+
+/// Whether memory ran out inside the solve of a pair.
+bool isWithoutMemory(const PairSolution& solution) {
+  return solution.status == SolveStatus::MemoryExhausted;
 }
 
 /// Where a, b and c are on the x axis.
@@ -98,8 +106,9 @@ TEST_F(OutOfMemoryTest, ACycleAfterOneThatFailedGivesNoOldDistanceUnderANewStamp
     cycle.run({kDistance, kIdle}, at(step));
     moveAll(step + 1);
     failed = failsAfter(failures, [&] { cycle.run(both, at(step + 1)); });
-    cycle.run({kDistance, kDistance}, at(step + 1));
     const PublishedPair& pair = *cycle.pairs()[0];
+    failed = failed || isWithoutMemory(pair.tracked->solution);
+    cycle.run({kDistance, kDistance}, at(step + 1));
     EXPECT_EQ(pair.heading.stamp, at(step + 1));
     ASSERT_TRUE(pair.tracked->solved());
     ASSERT_NEAR(pair.tracked->solution.distance, 1.0 - 1e-5 * (step + 1), kRounding)
@@ -118,10 +127,13 @@ TEST_F(OutOfMemoryTest, ATrackerThatWasInterruptedStartsCold) {
     tracker.setScene(scene);
     tracker.update(first, 0.0, {true, true, false, false});
     failed = failsAfter(failures, [&] { tracker.update(second, 0.1, {true, true, true, false}); });
+    std::vector<bool> was_ended;
+    for (const auto& pair : tracker.pairs()) was_ended.push_back(failed || isWithoutMemory(pair->solution));
+    failed = std::find(was_ended.begin(), was_ended.end(), true) != was_ended.end();
     tracker.update(second, 0.2, {true, true, true, false});
-    for (const auto& pair : tracker.pairs()) {
-      ASSERT_TRUE(pair->solved());
-      EXPECT_EQ(pair->solution.warm, !failed) << "after " << failures << " allocations";
+    for (std::size_t i = 0; i < tracker.pairs().size(); ++i) {
+      ASSERT_TRUE(tracker.pairs()[i]->solved());
+      EXPECT_EQ(tracker.pairs()[i]->solution.warm, !was_ended[i]) << "after " << failures << " allocations";
     }
   }
   EXPECT_GT(failures, 20U);
@@ -137,13 +149,55 @@ TEST_F(OutOfMemoryTest, AQueryIsAnsweredWithoutAThrow) {
   for (bool answered = false; !answered; ++failures) {
     QueryAnswer answer;
     ASSERT_FALSE(failsAfter(failures, [&] { answer = answerQuery(query, scene, context, at(0)); }));
-    answered = isAnswered(answer.result);
     const PairDistance& nearest = answer.result.nearest;
+    answered = nearest.status.code == PairStatus::OK;
+    if (nearest.status.code == PairStatus::MEMORY_EXHAUSTED) {
+      EXPECT_TRUE(isAnswered(answer.result));
+      EXPECT_LE(nearest.lower_bound, 1.0);
+      EXPECT_GE(nearest.distance, 1.0 - kRounding);
+      continue;
+    }
     EXPECT_EQ(nearest.status.code, answered ? PairStatus::OK : PairStatus::INVALID_REQUEST);
     EXPECT_EQ(std::isnan(nearest.distance), !answered);
     EXPECT_NE(nearest.status.message.empty(), !answered);
   }
   EXPECT_GT(failures, 20U);
+}
+
+// Memory runs out inside the solve: at any level the tracker answers by a bracket and begins anew.
+TEST(OutOfMemory, ASolveEndsWithABracketThatHolds) {
+  const auto comb = test::makeBody(test::makeComb(3));
+  const Eigen::Isometry3d pose = Eigen::Translation3d(0.2, 0.1, 2.5) * Eigen::Isometry3d::Identity();
+  for (const AccuracyLevel accuracy :
+       {AccuracyLevel::Certified, AccuracyLevel::Refined, AccuracyLevel::Nodes}) {
+    TrackerParameters parameters;
+    parameters.accuracy = accuracy;
+    parameters.margin_a = 0.1;
+    const PairSolution expected = solveOnce("pair", comb, comb, parameters, pose);
+    std::size_t exhausted = 0;
+    std::size_t succeeding = 0;
+    for (bool is_whole = false; !is_whole; succeeding += 1 + succeeding / 16) {
+      PairTracker tracker("pair", comb, comb, parameters);
+      PairSolution solution;
+      ASSERT_FALSE(failsAfter(succeeding, [&] { tracker.update(pose, 0.0, solution); })) << succeeding;
+      is_whole = !isWithoutMemory(solution);
+      exhausted += is_whole ? 0 : 1;
+      EXPECT_EQ(solution.niches_complete, is_whole && expected.niches_complete);
+      EXPECT_GE(solution.distance, expected.distance - kRounding);
+      if (provesDistance(accuracy)) {
+        EXPECT_LE(solution.lower_bound, expected.distance);
+      }
+      EXPECT_NEAR((solution.point_b_in_a - solution.point_a_in_a).norm(), solution.distance, kRounding);
+      tracker.update(pose, 0.1, solution);
+      EXPECT_EQ(solution.warm, is_whole);
+      EXPECT_NE(solution.status, SolveStatus::MemoryExhausted);
+      if (provesDistance(accuracy)) {
+        EXPECT_EQ(solution.distance, expected.distance);
+        EXPECT_EQ(solution.niches.size(), expected.niches.size());
+      }
+    }
+    EXPECT_GT(exhausted, 10U) << toString(accuracy);
+  }
 }
 
 }  // namespace

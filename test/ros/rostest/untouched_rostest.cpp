@@ -88,16 +88,16 @@ void ask(const std::string& node, int step) {
   }
 }
 
-// A node makes what niches need in the background: its bodies grow until that is done.
+// A node makes what niches need in the background, the grids last: nodes are added until that is done.
 bool isPrepared(const std::string& node) {
   constexpr int kTimesTheSame = 20;
   std::uint64_t last = 0;
   int times = 0;
   return eventually([&] {
-    std::uint64_t memory = 0;
-    for (const BodyInfo& body : call<ListBodies>(node + "/list_bodies", {}).bodies) memory += body.memory;
-    times = memory == last ? times + 1 : 0;
-    last = memory;
+    std::uint64_t nodes = 0;
+    for (const BodyInfo& body : call<ListBodies>(node + "/list_bodies", {}).bodies) nodes += body.grid_nodes;
+    times = nodes > 0 && nodes == last ? times + 1 : 0;
+    last = nodes;
     ros::WallDuration(0.02).sleep();
     return times == kTimesTheSame;
   });

@@ -180,7 +180,7 @@ SceneBody twoPosts(double half_distance) {
   return body;
 }
 
-TEST_F(AnswerQuery, CutTheNichesToTheMemoryOfTheAnswer) {
+TEST_F(AnswerQuery, CutTheNichesToTheCountOfTheAnswer) {
   scene.bodies.edit(1) = twoPosts(2.0);
   query.with_niches = query.use_pose_b = 1;
   query.largest_niche_count = std::numeric_limits<std::uint32_t>::max();
@@ -188,20 +188,20 @@ TEST_F(AnswerQuery, CutTheNichesToTheMemoryOfTheAnswer) {
   const PairNiches whole = answerQuery(query, scene, context, now).result;
   EXPECT_EQ(whole.niches.size(), 2U);
   EXPECT_FALSE(whole.niches_cut);
-  context.answer_limit = 700;  // bytes, between those of one niche and of two
+  context.largest_niche_count = 1;
   const PairNiches cut = answerQuery(query, scene, context, now).result;
   EXPECT_EQ(cut.niches.size(), 1U);
   EXPECT_TRUE(cut.niches_cut);
   EXPECT_NEAR(cut.nearest.distance, 1.0, kRounding);
 }
 
-TEST_F(AnswerQuery, RefuseContactsBeyondTheMemoryOfTheAnswer) {
+TEST_F(AnswerQuery, RefuseContactsBeyondTheCountOfTheAnswer) {
   scene.bodies.edit(1) = twoPosts(0.6);
   query.with_contacts = query.use_pose_b = 1;
   query.pose_b.pose.position.y = 0.25;
   QueryContext context{&buffer, "world", 0.0, 1.0};
   EXPECT_EQ(answerQuery(query, scene, context, now).contacts.contacts.size(), 2U);
-  context.answer_limit = 1000;  // bytes, between those of one contact and of two
+  context.largest_niche_count = 1;
   const QueryAnswer refused = answerQuery(query, scene, context, now);
   EXPECT_TRUE(isAnswered(refused.result));
   EXPECT_TRUE(refused.contacts.contacts.empty());

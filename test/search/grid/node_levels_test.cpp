@@ -8,6 +8,7 @@
 #include "search/grid/body_grid.h"
 #include "search/grid/search_grid.h"
 #include "support/concave_shapes.h"
+#include "support/count_allocations.h"
 
 namespace concave_distance::node_levels_test {
 namespace {
@@ -60,23 +61,17 @@ TEST(NodeLevels, SmallGraphsHaveNone) {
 
 // Four times the nodes, four times the memory: of the levels, the body and a search's metric.
 TEST(NodeLevels, MemoryIsLinearInTheNodes) {
-  const auto bytes_per_node = [](double edge, double& levels_share) {
+  const auto bytes_per_node = [](double edge) {
     BodyMeshOptions options;
     options.max_edge_length = edge;
+    const std::size_t before = allocated_bytes;
     const BodyMesh body("comb", test::makeComb(5), options);
     MeshMetricQuery query(gridOf(body).metric());
     (void)query.distanceWithin(NodeIndex{0}, NodeIndex{1}, 1.0);  // allocates
-    levels_share = static_cast<double>(gridOf(body).nodes().levels.memoryBytes()) /
-                   static_cast<double>(gridOf(body).graph().memoryBytes());
-    return static_cast<double>(body.memoryBytes() + query.memoryBytes()) /
+    return static_cast<double>(allocated_bytes - before) /
            static_cast<double>(gridOf(body).graph().nodeCount());
   };
-  double share = 0.0;
-  const double coarse = bytes_per_node(0.02, share);
-  EXPECT_LT(share, 0.3);
-  const double fine = bytes_per_node(0.01, share);
-  EXPECT_LT(share, 0.3);
-  EXPECT_LT(fine, 1.1 * coarse);
+  EXPECT_LT(bytes_per_node(0.01), 1.1 * bytes_per_node(0.02));
 }
 
 }  // namespace

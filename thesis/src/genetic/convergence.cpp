@@ -19,8 +19,4 @@ bool ConvergenceCheck::update(const Census& census, double niche_radius, TrialPo
   return unchanged_ >= generations_;
 }
 
-std::size_t ConvergenceCheck::memoryBytes() const {
-  return (order_.capacity() + niches_.capacity() + last_niches_.capacity()) * sizeof(std::uint32_t);
-}
-
 }  // namespace concave_distance

@@ -15,7 +15,6 @@ class ConvergenceCheck {
   void reset(std::uint32_t generations);
   /// Call once a generation. True when the run has converged.
   bool update(const Census& census, double niche_radius, TrialPointTable& places, PairMetric& metric);
-  std::size_t memoryBytes() const;
 
  private:
   std::uint32_t generations_ = 0;

@@ -40,9 +40,6 @@ class SurfaceMesh {
     return vertices_[triangles_[triangle.value][static_cast<std::size_t>(corner)].value];
   }
   const Eigen::AlignedBox3d& boundingBox() const { return bounding_box_; }
-  std::size_t memoryBytes() const {
-    return vertices_.size() * sizeof(Eigen::Vector3d) + triangles_.size() * sizeof(TriangleNodes);
-  }
   /// Length of the bounding box's diagonal, metres.
   double diameter() const { return bounding_box_.isEmpty() ? 0.0 : bounding_box_.diagonal().norm(); }
 
