@@ -183,7 +183,7 @@ void buildAdded(const std::vector<SavedOperation>& all, const std::string& base_
     SceneOperation& operation = operations[places[k]];
     operation.added = std::move(built[k].body);
     if (!operation.added)
-      operation.problem.emplace("body '" + operation.body + "'", built[k].problem, "it is not added");
+      operation.problem.emplace("shapes", built[k].problem, "mend it, or take the operation out");
   }
 }
 

@@ -212,12 +212,16 @@ AppliedOperations applyOperations(Scene& scene, const std::vector<SceneOperation
   for (std::size_t i = 0; i < operations.size(); ++i) {
     const SceneOperation& operation = operations[i];
     if (!operation.problem && isNamed(failed, operation)) continue;
+    const bool changes_in_part =
+        operation.kind == OperationKind::SetEffects || operation.kind == OperationKind::SetWarningDistance;
+    const std::optional<Scene> before = changes_in_part ? std::optional<Scene>(scene) : std::nullopt;
     try {
       OperationRemark remark = applyAndRecord(scene, operation, frames).remark;
       remark.operation = i;
       if (operation.kind == OperationKind::Add || operation.kind == OperationKind::Attach)
         applied.remarks.push_back(std::move(remark));
     } catch (const Error& error) {
+      if (before) scene = *before;
       applied.faults.push_back({i, operation.body, error, selectsNothing(scene, operation, error)});
       if (operation.kind == OperationKind::Add && !scene.findBody(operation.body))
         failed.insert(operation.body);

@@ -47,7 +47,7 @@ void requireBatchSize(std::size_t operations);
 /// Applies and records a batch on a copy of a scene, each operation on what those before it have made. Each
 /// fault is listed, and an operation is left out that names a body whose Add has failed. When there is one,
 /// the caller drops the copy or, with operations that are independent of each other, keeps what was applied:
-/// one with a fault has changed nothing, but for the pairs of a pattern.
+/// one with a fault has changed nothing.
 AppliedOperations applyOperations(Scene& scene, const std::vector<SceneOperation>& operations,
                                   const FramesNow& frames);
 

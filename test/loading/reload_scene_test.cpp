@@ -345,9 +345,8 @@ TEST_F(ReloadSceneTest, LeavesOutAdditionsBeyondTheLimitOfBodies) {
 }
 
 TEST_F(ReloadSceneTest, AChangedMeshFileIsReadAnew) {
-  const std::string path = folder.write("part.stl", test::tetrahedronStl());
-  const std::string yaml = kCell + "  # with a mesh\n";
-  std::string cell = yaml;
+  folder.write("part.stl", test::tetrahedronStl());
+  std::string cell = kCell;
   cell.insert(cell.find("pairs:"), "  - {name: cast, frame: world, mesh: part.stl}\n");
   reload(cell);
   const double size = body("cast").mesh->diameter();
@@ -385,6 +384,9 @@ TEST_F(ReloadSceneTest, NamesEachOperationThatNoLongerFits) {
   for (std::size_t i = 0; i < expected.size(); ++i)
     EXPECT_EQ(dropped[i].rfind(expected[i], 0), 0U) << dropped[i];
   EXPECT_EQ(body("part").frame_from_body.translation(), Eigen::Vector3d(3, 3, 4)) << "what fits stays";
+  EXPECT_EQ(pairOf(scene, *scene.findBody("hand"), *scene.findBody("shelf"))->settings.warning_distance,
+            std::nullopt)
+      << "what does not fit changes nothing";
 }
 
 }  // namespace
