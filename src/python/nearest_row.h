@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "arrays.h"
-#include "concave_distance/scene/body_poses.h"
+#include "concave_distance/scene/cycle_counts.h"
 #include "concave_distance/scene/scene_tracker.h"
 
 namespace concave_distance::python {

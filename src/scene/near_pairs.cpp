@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -13,6 +14,7 @@
 namespace concave_distance {
 namespace {
 
+constexpr double kPoseRoundings = 16.0 * std::numeric_limits<double>::epsilon();
 constexpr double kRestSeconds = 2.0;        // that a pair which has left is kept
 constexpr std::size_t kMostResting = 256;   // pairs: their trackers take memory
 constexpr std::size_t kMostUnknown = 1000;  // pairs that have a tracker because a body has no pose
@@ -23,14 +25,14 @@ std::uint64_t keyOf(SlotPair slots) {
 
 }  // namespace
 
-void NearPairs::update(const BodyPoses& poses, std::uint64_t& largest_id) {
+void NearPairs::update(const Poses& poses, double now, std::uint64_t& largest_id) {
   if (!now_.has_rules && pairs_.empty()) {
     others_ = {};
     return;
   }
-  if (!keeps_left_) dropLeft(poses.now, largest_id);
+  if (!keeps_left_) dropLeft(now, largest_id);
   keeps_left_ = false;
-  dropRested(poses.now, largest_id);
+  dropRested(now, largest_id);
   if (asks_all_) {
     place_of_slot_.assign(now_.slot_count, 0);
     for (std::size_t i = 0; i < now_.bodies.size(); ++i) place_of_slot_[now_.bodies[i].slot] = i;
@@ -58,7 +60,7 @@ void NearPairs::update(const BodyPoses& poses, std::uint64_t& largest_id) {
   fillOthers();
 }
 
-void NearPairs::placeBoxes(const BodyPoses& poses) {
+void NearPairs::placeBoxes(const Poses& poses) {
   unknown_.assign(now_.bodies.size(), false);
   for (std::size_t i = 0; i < now_.bodies.size(); ++i) {
     const Plan::Body& body = now_.bodies[i];
@@ -66,22 +68,10 @@ void NearPairs::placeBoxes(const BodyPoses& poses) {
       sweep_.remove(body.slot);
       continue;
     }
-    const std::int32_t newest = poses.newest[i];
-    const std::size_t times = newest == BodyPoses::kFixed ? 1 : static_cast<std::size_t>(newest + 1);
-    Eigen::AlignedBox3d box;
-    bool is_known = newest != BodyPoses::kUnknown;
-    const auto oldest = static_cast<std::size_t>(poses.oldest[i]);
-    for (std::size_t time = oldest; is_known && time < times; ++time) {
-      const std::optional<Eigen::Isometry3d> pose = rigidPose(poses.pose(i, time));
-      is_known = pose.has_value();
-      if (is_known) box.extend(boxAt(body.body->bounds, *pose, body.body->margin + body.half_reach));
-    }
-    unknown_[i] = !is_known;
-    if (is_known && poses.oldest[i] > 0) {  // where it was before, nobody knows
-      box.min().setConstant(-kInfinity);
-      box.max().setConstant(kInfinity);
-    }
-    if (is_known) {
+    const std::optional<Eigen::Isometry3d> pose = poses[i] ? rigidPose(*poses[i]) : std::nullopt;
+    unknown_[i] = !pose;
+    if (pose) {
+      const Eigen::AlignedBox3d box = boxAt(body.body->bounds, *pose, body.body->margin + body.half_reach);
       sweep_.set(body.slot, box.min(), box.max());
     } else {
       sweep_.remove(body.slot);
@@ -182,7 +172,7 @@ void NearPairs::admitUnknown(std::uint64_t largest_id) {
 }
 
 // The nearest first, where there is room again.
-void NearPairs::admitCut(const BodyPoses& poses, std::uint64_t largest_id) {
+void NearPairs::admitCut(const Poses& poses, std::uint64_t largest_id) {
   std::vector<std::pair<double, SlotPair>> left;
   for (const SlotPair slots : cut_) {
     if (!sweep_.overlaps().contains(slots) || entry_of_.count(keyOf(slots)) != 0) continue;
@@ -190,18 +180,15 @@ void NearPairs::admitCut(const BodyPoses& poses, std::uint64_t largest_id) {
     const std::size_t b = placeOf(slots.b);
     const PairRule* rule = ruleOf(now_.scene, a, b);
     if (rule == nullptr || !rule->is_enabled) continue;
-    const auto newest = [&](std::size_t body) {
-      return poses.newest[body] == BodyPoses::kFixed ? poses.stride() - 1
-                                                     : static_cast<std::size_t>(poses.newest[body]);
-    };
-    const std::size_t time = std::min(newest(a), newest(b));
     const SceneBody& body_a = *now_.bodies[a].body;
     const SceneBody& body_b = *now_.bodies[b].body;
-    const Eigen::Isometry3d a_from_b =
-        poses.relative ? poses.relative(a, b, time)
-                       : poses.pose(a, time).inverse(Eigen::Isometry) * poses.pose(b, time);
+    // Far from the world's origin, `a_from_b` has lost what the margin takes off again.
+    const double rounding =
+        kPoseRoundings * (poses[a]->translation().lpNorm<1>() + poses[b]->translation().lpNorm<1>());
+    const Eigen::Isometry3d a_from_b = poses[a]->inverse(Eigen::Isometry) * *poses[b];
     left.emplace_back(
-        distanceLowerBound(body_a.bounds, body_b.bounds, a_from_b, body_a.margin + body_b.margin), slots);
+        distanceLowerBound(body_a.bounds, body_b.bounds, a_from_b, body_a.margin + body_b.margin + rounding),
+        slots);
   }
   std::sort(left.begin(), left.end(), [](const auto& l, const auto& r) {
     return l.first != r.first ? l.first < r.first : keyOf(l.second) < keyOf(r.second);

@@ -1,12 +1,14 @@
 #pragma once
 
+#include <Eigen/Geometry>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <unordered_map>
 #include <vector>
 
-#include "concave_distance/scene/body_poses.h"
+#include "concave_distance/scene/cycle_counts.h"
 #include "concave_distance/scene/scene.h"
 #include "concave_distance/scene/tracked_pair.h"
 #include "sweep_and_prune.h"
@@ -55,8 +57,11 @@ class NearPairs {
   /// Pairs that leave have to be taken from pairs() before.
   void adopt(Plan&& plan, bool settings_changed, std::uint64_t& largest_id);
 
-  /// Finds the pairs that are near. @param largest_id of niches of pairs that are gone, which it raises
-  void update(const BodyPoses& poses, std::uint64_t& largest_id);
+  /// World poses of the bodies of the scene, in their order; empty where one is not known.
+  using Poses = std::vector<std::optional<Eigen::Isometry3d>>;
+  /// Finds the pairs that are near. @param now seconds
+  /// @param largest_id of niches of pairs that are gone, which it raises
+  void update(const Poses& poses, double now, std::uint64_t& largest_id);
   /// After an update() that threw: nothing of the last cycle counts.
   void recover();
 
@@ -77,12 +82,12 @@ class NearPairs {
     double since = 0.0;
     std::shared_ptr<TrackedPair> pair;
   };
-  void placeBoxes(const BodyPoses& poses);
+  void placeBoxes(const Poses& poses);
   void dropLeft(double now, std::uint64_t& largest_id);
   void dropRested(double now, std::uint64_t& largest_id);
   void admit(SlotPair slots, std::uint64_t largest_id, bool is_by_box);
   void admitUnknown(std::uint64_t largest_id);
-  void admitCut(const BodyPoses& poses, std::uint64_t largest_id);
+  void admitCut(const Poses& poses, std::uint64_t largest_id);
   std::shared_ptr<TrackedPair> takeRested(SlotPair slots);
   std::size_t placeOf(std::uint32_t slot) const { return place_of_slot_[slot]; }
   void fillOthers();

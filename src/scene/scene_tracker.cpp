@@ -15,13 +15,6 @@
 namespace concave_distance {
 namespace {
 
-void requireCount(const std::string& what, std::size_t given, std::size_t needed, const std::string& each) {
-  if (given == needed) return;
-  throw Error("SceneTracker::update",
-              std::to_string(given) + " " + what + " for " + std::to_string(needed) + " " + each,
-              "give one for each, in their order");
-}
-
 /// prepare() runs so many cycles: the first is cold, and the others let the buffers of warm ones grow, at
 /// last of those with an end.
 constexpr int kPreparingCycles = 6;
@@ -29,6 +22,21 @@ constexpr int kPreparingCyclesWithEnd = 3;
 constexpr double kPreparingStep = 1e-3;  // s between them
 constexpr double kPreparingShift =
     1e-6;  // of the smaller body: they move B, because a pair at rest does less
+
+/// Locates pairs by plain poses of one time. Its caller keeps the poses.
+struct LocateAt {
+  const SceneTracker::Poses& poses;
+  double time;
+
+  PairInput operator()(std::size_t a, std::size_t b) const {
+    PairInput input;
+    input.located = poses[a] && poses[b];
+    if (!input.located) return input;
+    input.a_from_b = poses[a]->inverse(Eigen::Isometry) * *poses[b];
+    input.time = time;
+    return input;
+  }
+};
 
 }  // namespace
 
@@ -119,71 +127,32 @@ void SceneTracker::restart(std::size_t pair) {
   pairs_[pair]->restart();
 }
 
-void SceneTracker::takePoses(const std::vector<std::optional<Eigen::Isometry3d>>& world_from_body,
-                             double time) {
-  requireCount("poses", world_from_body.size(), body_count_, "bodies");
-  poses_.times.assign(1, time);
-  poses_.now = time;
-  poses_.reset(body_count_);
-  for (std::size_t body = 0; body < body_count_; ++body) {
-    if (!world_from_body[body]) continue;
-    poses_.newest[body] = 0;
-    poses_.poses[body] = *world_from_body[body];
-  }
-}
-
-CycleCounts SceneTracker::update(const std::vector<std::optional<Eigen::Isometry3d>>& world_from_body,
-                                 double time, const PairDemand& demand, WorkLimit::Clock::time_point end) {
+CycleCounts SceneTracker::update(const Poses& world_from_body, double time, const PairDemand& demand,
+                                 WorkLimit::Clock::time_point end) {
   return update(
       world_from_body, time, [&demand](std::size_t, const TrackedPair&) { return demand; }, end);
 }
 
-CycleCounts SceneTracker::update(const std::vector<std::optional<Eigen::Isometry3d>>& world_from_body,
-                                 double time, const DemandOf& demand_of, WorkLimit::Clock::time_point end) {
-  takePoses(world_from_body, time);
-  return update(poses_, demand_of, end);
-}
-
-CycleCounts SceneTracker::update(const BodyPoses& poses, const DemandOf& demand_of,
+CycleCounts SceneTracker::update(const Poses& world_from_body, double time, const DemandOf& demand_of,
                                  WorkLimit::Clock::time_point end) {
-  requireCount("poses", poses.newest.size(), body_count_, "bodies");
+  return update(world_from_body, time, demand_of, LocateAt{world_from_body, time}, end);
+}
+
+CycleCounts SceneTracker::update(const Poses& world_from_body, double now, const DemandOf& demand_of,
+                                 const Locate& locate, WorkLimit::Clock::time_point end) {
+  findNear(world_from_body, now);
+  return runCycle(*solver_, demand_of, locate, end);
+}
+
+void SceneTracker::findNear(const Poses& world_from_body, double now) {
+  if (world_from_body.size() != body_count_) {
+    throw Error(
+        "SceneTracker::update",
+        std::to_string(world_from_body.size()) + " poses for " + std::to_string(body_count_) + " bodies",
+        "give one for each, in their order");
+  }
   begin();
-  findNear(poses);
-  const auto locate_pair = [&](std::size_t index) { return locate(poses, *pairs_[index]->origin); };
-  return runCycle(*solver_, pairs_.size(), demand_of, locate_pair, end);
-}
-
-CycleCounts SceneTracker::update(const std::vector<PairDemand>& demand, const Locate& locate,
-                                 WorkLimit::Clock::time_point end) {
-  requireCount("demands", demand.size(), listed_, "pairs");
-  begin();
-  const auto demand_of = [&](std::size_t index, const TrackedPair&) { return demand[index]; };
-  return runCycle(*solver_, listed_, demand_of, locate, end);
-}
-
-PairInput SceneTracker::locate(const BodyPoses& poses, const ScenePair& pair) const {
-  const std::int32_t newest_a = poses.newest[pair.body_a];
-  const std::int32_t newest_b = poses.newest[pair.body_b];
-  PairInput input;
-  input.fixed = newest_a == BodyPoses::kFixed && newest_b == BodyPoses::kFixed;
-  input.located = newest_a != BodyPoses::kUnknown && newest_b != BodyPoses::kUnknown;
-  if (!input.located) return input;
-  const std::int32_t common = newest_a == BodyPoses::kFixed   ? newest_b
-                              : newest_b == BodyPoses::kFixed ? newest_a
-                                                              : std::min(newest_a, newest_b);
-  // A body whose pose is known only from later on may be anywhere at that time.
-  input.located = input.fixed || common >= std::max(poses.oldest[pair.body_a], poses.oldest[pair.body_b]);
-  if (!input.located) return input;
-  const auto time = static_cast<std::size_t>(std::max(common, 0));
-  input.time = input.fixed ? poses.now : poses.times[time];
-  input.a_from_b =
-      poses.relative ? poses.relative(pair.body_a, pair.body_b, time)
-                     : poses.pose(pair.body_a, time).inverse(Eigen::Isometry) * poses.pose(pair.body_b, time);
-  return input;
-}
-
-void SceneTracker::findNear(const BodyPoses& poses) {
-  near_->update(poses, largest_retired_id_);
+  near_->update(world_from_body, now, largest_retired_id_);
   if (near_revision_ != near_->revision()) refreshPairs();
 }
 
@@ -193,12 +162,11 @@ void SceneTracker::begin() {
   near_->recover();
 }
 
-template <typename Demand, typename LocatePair>
-CycleCounts SceneTracker::runCycle(CycleSolver& solver, std::size_t count, const Demand& demand_of,
-                                   const LocatePair& locate, WorkLimit::Clock::time_point end, bool watches) {
+CycleCounts SceneTracker::runCycle(CycleSolver& solver, const DemandOf& demand_of, const Locate& locate,
+                                   WorkLimit::Clock::time_point end, bool watches) {
   CycleCounts counts;
   to_solve_.clear();
-  for (std::size_t index = 0; index < count; ++index) {
+  for (std::size_t index = 0; index < pairs_.size(); ++index) {
     TrackedPair& pair = *pairs_[index];
     const bool was_watched = pair.demand.watched;
     pair.demand = pair.origin->enabled ? demand_of(index, pair) : PairDemand{};
@@ -212,7 +180,8 @@ CycleCounts SceneTracker::runCycle(CycleSolver& solver, std::size_t count, const
       pair.demand.niches = pair.demand.effects = false;
       ++counts.unprepared;
     }
-    if (pair.demand.due && pair.locate(locate(index), options_.stop)) to_solve_.push_back(&pair);
+    if (pair.demand.due && pair.locate(locate(pair.origin->body_a, pair.origin->body_b), options_.stop))
+      to_solve_.push_back(&pair);
   }
   solver.begin(to_solve_);
   if (end == kNoCycleEnd) {
@@ -220,29 +189,28 @@ CycleCounts SceneTracker::runCycle(CycleSolver& solver, std::size_t count, const
   } else {
     solver.solveUntil(end);
   }
-  for (std::size_t index = 0; index < count; ++index) {
-    if (watches && pairs_[index]->demand.due) pairs_[index]->watchWarning();
+  for (const auto& pair : pairs_) {
+    if (watches && pair->demand.due) pair->watchWarning();
   }
-  this->count(count, counts);
+  count(counts);
   counts.helper_cpu_seconds = solver.helperSeconds();
   interrupted_ = false;
   return counts;
 }
 
-PreparationCounts SceneTracker::prepare(const std::vector<std::optional<Eigen::Isometry3d>>& world_from_body,
-                                        double time, const PairDemand& demand,
+PreparationCounts SceneTracker::prepare(const Poses& world_from_body, double time, const PairDemand& demand,
                                         const PreparationSettings& settings) {
   using Clock = WorkLimit::Clock;
   const std::chrono::duration<double> limit(settings.time_limit);
   const Clock::time_point end = limit < std::chrono::hours(24 * 365)
                                     ? Clock::now() + std::chrono::duration_cast<Clock::duration>(limit)
                                     : kNoCycleEnd;
-  takePoses(world_from_body, time);
-  begin();
-  findNear(poses_);
+  findNear(world_from_body, time);
   interrupted_ = false;
   PreparationCounts counts;
-  if (prepareBodies(demand, settings, end, counts)) runPreparingCycles(demand, settings, end, counts);
+  if (prepareBodies(demand, settings, end, counts)) {
+    runPreparingCycles(LocateAt{world_from_body, time}, demand, settings, end, counts);
+  }
   return counts;
 }
 
@@ -271,26 +239,27 @@ bool SceneTracker::prepareBodies(const PairDemand& demand, const PreparationSett
 }
 
 // Pairs whose last answer is of these poses are left as they are.
-void SceneTracker::runPreparingCycles(const PairDemand& demand, const PreparationSettings& settings,
-                                      WorkLimit::Clock::time_point end, PreparationCounts& counts) {
+void SceneTracker::runPreparingCycles(const Locate& locate, const PairDemand& demand,
+                                      const PreparationSettings& settings, WorkLimit::Clock::time_point end,
+                                      PreparationCounts& counts) {
   to_solve_.reserve(pairs_.size());
   solver_->reserve(pairs_.size());
   std::vector<PairDemand> demands(pairs_.size(), demand);
   for (std::size_t index = 0; index < pairs_.size(); ++index) {
     const TrackedPair& pair = *pairs_[index];
-    const PairInput input = locate(poses_, *pair.origin);
+    const PairInput input = locate(pair.origin->body_a, pair.origin->body_b);
     const bool has_niches = pair.demand.niches || !demand.niches;
     const bool is_there = pair.input.a_from_b.matrix() == input.a_from_b.matrix();
     if (pair.solved() && has_niches && is_there) demands[index].due = false;
   }
+  const auto& bodies = near_->scene().bodies;
   CycleSolver cold_solver(settings.threads, options_.stop);
   CycleCounts cycle;
   for (int left = kPreparingCycles - 1; left >= 0; --left) {
-    const auto locate_pair = [&](std::size_t index) {
-      const TrackedPair& pair = *pairs_[index];
-      PairInput input = locate(poses_, *pair.origin);
-      if (input.fixed || left == 0) return input;
-      const double size = std::min(pair.body_a->mesh->diameter(), pair.body_b->mesh->diameter());
+    const auto locate_shifted = [&](std::size_t a, std::size_t b) {
+      PairInput input = locate(a, b);
+      if (left == 0) return input;
+      const double size = std::min(bodies[a].mesh->diameter(), bodies[b].mesh->diameter());
       input.a_from_b.translation().x() += (left % 2 == 0 ? 1.0 : -1.0) * kPreparingShift * size;
       input.time -= left * kPreparingStep;
       return input;
@@ -300,8 +269,7 @@ void SceneTracker::runPreparingCycles(const PairDemand& demand, const Preparatio
     CycleSolver& solver = left == kPreparingCycles - 1 ? cold_solver : *solver_;
     const bool has_end = left < kPreparingCyclesWithEnd;
     const WorkLimit::Clock::time_point far_end = WorkLimit::Clock::now() + std::chrono::hours(1);
-    cycle = runCycle(solver, pairs_.size(), demand_of, locate_pair, has_end ? std::min(end, far_end) : end,
-                     false);
+    cycle = runCycle(solver, demand_of, locate_shifted, has_end ? std::min(end, far_end) : end, false);
   }
   counts.lists_left = cycle.put_off + cycle.unprepared;
   for (std::size_t index = 0; index < pairs_.size(); ++index) {
@@ -313,13 +281,12 @@ const OtherPairs& SceneTracker::others() const {
   return near_->others();
 }
 
-void SceneTracker::count(std::size_t pairs, CycleCounts& counts) const {
-  for (std::size_t index = 0; index < pairs; ++index) {
-    const TrackedPair& pair = *pairs_[index];
-    if (!pair.demand.due) continue;
-    counts.repeated += pair.repeated ? 1 : 0;
-    counts.beyond_cutoff += pair.state == PairState::BeyondCutoff ? 1 : 0;
-    counts.not_located += pair.state == PairState::NotLocated ? 1 : 0;
+void SceneTracker::count(CycleCounts& counts) const {
+  for (const auto& pair : pairs_) {
+    if (!pair->demand.due) continue;
+    counts.repeated += pair->repeated ? 1 : 0;
+    counts.beyond_cutoff += pair->state == PairState::BeyondCutoff ? 1 : 0;
+    counts.not_located += pair->state == PairState::NotLocated ? 1 : 0;
   }
   for (TrackedPair* pair : to_solve_) {
     if (!pair->solved()) continue;  // stopped before its turn

@@ -263,28 +263,49 @@ TEST(NearPairs, FollowARuleThatChanges) {
   EXPECT_EQ(tracker.pairs().size(), 2U);
 }
 
-// Two bodies whose poses are known until different times are both placed at the earlier one.
-TEST(NearPairs, HaveBothBodiesAtOneTime) {
-  const Scene scene = manyBoxes(3, 0.5);
+// Poses of bodies may be of different times: they say which pairs are near, and Locate where each is solved.
+TEST(NearPairs, AreSolvedWhereTheyAreLocated) {
+  const Scene scene = manyBoxes(4, 0.5);
   SceneTracker tracker({1, nullptr});
   tracker.setScene(scene);
-  BodyPoses poses;
-  poses.times = {1.0, 2.0};
-  poses.now = 2.5;
-  poses.reset(3);
-  poses.newest = {1, 0, BodyPoses::kFixed};
-  poses.poses[0] = at(0.0);   // b0 at 1 s, near b1
-  poses.poses[1] = at(50.0);  // and at 2 s, near b2
-  poses.poses[2] = at(1.2);
-  poses.poses[4] = at(51.3);
-  tracker.update(poses, [](std::size_t, const TrackedPair&) { return kDistance; });
+  const Poses newest = {at(0.0), at(1.2), at(-1.3), at(90.0)};
+  std::multiset<std::string> asked;
+  const auto locate = [&](std::size_t a, std::size_t b) {
+    const auto [first, last] = std::minmax(a, b);
+    asked.insert(std::to_string(first) + std::to_string(last));
+    PairInput input;
+    input.located = last == 1;
+    input.a_from_b = at(a == 0 ? 1.4 : -1.4);
+    input.time = 7.0;
+    return input;
+  };
+  const auto demand_of = [](std::size_t, const TrackedPair&) { return kDistance; };
+  EXPECT_EQ(tracker.update(newest, 7.5, demand_of, locate).not_located, 1U);
   std::map<std::string, const TrackedPair*> pairs;
   for (const auto& pair : tracker.pairs()) pairs[pair->origin->name] = pair.get();
-  ASSERT_TRUE(pairs.count("b1/b0") == 1 && pairs.count("b2/b0") == 1);
-  EXPECT_NEAR(pairs["b1/b0"]->solution.distance, 0.2, 1e-12);
-  EXPECT_EQ(pairs["b1/b0"]->input.time, 1.0);
-  EXPECT_NEAR(pairs["b2/b0"]->solution.distance, 0.3, 1e-12);
-  EXPECT_EQ(pairs["b2/b0"]->input.time, 2.0);
+  ASSERT_EQ(pairs.size(), 2U);
+  EXPECT_NEAR(pairs.at("b1/b0")->solution.distance, 0.4, 1e-12);
+  EXPECT_EQ(pairs.at("b1/b0")->input.time, 7.0);
+  EXPECT_EQ(pairs.at("b2/b0")->state, PairState::NotLocated);
+  EXPECT_EQ(asked, (std::multiset<std::string>{"01", "02"})) << "each near pair once, and no other";
+  EXPECT_EQ(tracker.update(newest, 7.6, demand_of, locate).repeated, 1U);
+}
+
+// Where the world's origin is 1e9 m away, poses have lost their last seven digits: the bound has too.
+TEST(NearPairs, BeyondTheLimitHaveABoundThatHoldsFarFromTheOrigin) {
+  Scene scene = manyBoxes(3, 10.0);
+  scene.limits.pairs = 1;
+  SceneTracker tracker({1, nullptr});
+  tracker.setScene(scene);
+  const Eigen::AngleAxisd turn(0.7, Eigen::Vector3d(1.0, 2.0, 3.0).normalized());
+  Poses poses;
+  for (const double x : {0.0, 2.0, 4.0}) {
+    poses.emplace_back(Eigen::Translation3d(1e9, 1e9, 1e9) * turn * Eigen::Translation3d(x, 0.0, 0.0));
+  }
+  tracker.update(poses, 0.0, kDistance);
+  EXPECT_EQ(tracker.others().cut, 2U);
+  EXPECT_LT(tracker.others().lower_bound, 1.0 - 1e-7);
+  EXPECT_GT(tracker.others().lower_bound, 1.0 - 1e-4);
 }
 
 }  // namespace

@@ -249,14 +249,11 @@ std::string messageOf(const std::function<void()>& act) {
   return "accepted";
 }
 
-TEST_F(SceneTrackerTest, RefusesAnotherNumberOfPosesOrDemandsByName) {
+TEST_F(SceneTrackerTest, RefusesAnotherNumberOfPosesByName) {
   for (const Poses& poses : {Poses{}, Poses{at(0.0)}, Poses(4, at(0.0))}) {
     EXPECT_TRUE(test::mentions(messageOf([&] { tracker.update(poses, 0.0); }),
                                std::to_string(poses.size()) + " poses for 3 bodies"));
   }
-  const auto nowhere = [](std::size_t) { return PairInput{}; };
-  EXPECT_TRUE(test::mentions(messageOf([&] { tracker.update(std::vector<PairDemand>(1), nowhere); }),
-                             "1 demands for 2 pairs"));
   EXPECT_TRUE(test::mentions(messageOf([&] { tracker.restart(2); }), "pair 2 of 2"));
   EXPECT_EQ(tracker.update(posesAt(0.0), 0.0).solved, 2U);
 }

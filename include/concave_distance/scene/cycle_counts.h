@@ -3,11 +3,21 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 
 #include "concave_distance/tracking/pair_effects.h"
 #include "concave_distance/tracking/pair_solution.h"
 
 namespace concave_distance {
+
+/// Counts the pairs that the rules of a scene watch and that have no tracker in a cycle.
+struct OtherPairs {
+  std::uint64_t beyond = 0;   ///< proven farther apart than their cutoff and warning distance
+  std::uint64_t missing = 0;  ///< a body's pose is not known
+  std::uint64_t cut = 0;      ///< near, but more than SceneLimits::pairs
+  /// No pair of `beyond` or `cut` is nearer, metres, proven, where each body is at its newest pose.
+  double lower_bound = std::numeric_limits<double>::infinity();
+};
 
 /// Counts what one cycle did; with add(), what several did.
 struct CycleCounts {

@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "concave_distance/base/work_limit.h"
-#include "concave_distance/scene/body_poses.h"
 #include "concave_distance/scene/cycle_counts.h"
 #include "concave_distance/scene/scene.h"
 #include "concave_distance/scene/tracked_pair.h"
@@ -58,8 +57,11 @@ inline constexpr WorkLimit::Clock::time_point kNoCycleEnd = WorkLimit::Clock::ti
 class SceneTracker {
  public:
   using Pairs = std::vector<std::shared_ptr<TrackedPair>>;
-  /// Returns where the pair at this place in scene.pairs is. Called in the order of the pairs, by one thread.
-  using Locate = std::function<PairInput(std::size_t)>;
+  /// World poses of the bodies of a scene, in their order; empty where one is not known.
+  using Poses = std::vector<std::optional<Eigen::Isometry3d>>;
+  /// Returns where two bodies of the scene are together, both at one time. Called once for each pair that is
+  /// due, in the order of pairs(), by one thread.
+  using Locate = std::function<PairInput(std::size_t body_a, std::size_t body_b)>;
   /// Returns what is wanted of the enabled pair at this place in pairs(). Called likewise.
   using DemandOf = std::function<PairDemand(std::size_t, const TrackedPair&)>;
 
@@ -87,40 +89,31 @@ class SceneTracker {
   /// made when it comes to that: call it for such poses too, with the first ones of the loop last.
   /// @param time of these poses, seconds, before that of the next update() @param demand of cycles to come
   /// @throws Error as update()
-  PreparationCounts prepare(const std::vector<std::optional<Eigen::Isometry3d>>& world_from_body, double time,
+  PreparationCounts prepare(const Poses& world_from_body, double time,
                             const PairDemand& demand = {true, true, true, false},
                             const PreparationSettings& settings = {});
 
-  /// One cycle. @param poses of the scene's bodies, in their order
-  /// @param end as below. A warm cycle in which no pair comes near or leaves allocates nothing.
-  /// @throws Error for another number of bodies than the scene has
-  CycleCounts update(const BodyPoses& poses, const DemandOf& demand_of,
-                     WorkLimit::Clock::time_point end = kNoCycleEnd);
-
-  /// One cycle with the same demand of all enabled pairs. @param world_from_body one pose for each of
-  /// scene.bodies, each rigid (rotation orthonormal within 1e-3); empty where it is not known
-  /// @param time seconds of these poses, from any beginning
-  /// @param demand of each pair
-  /// @throws Error for another number of poses than the scene has bodies
-  CycleCounts update(const std::vector<std::optional<Eigen::Isometry3d>>& world_from_body, double time,
-                     const PairDemand& demand = {true, true, true, false},
-                     WorkLimit::Clock::time_point end = kNoCycleEnd);
-
-  /// The same with a demand of its own for each pair.
-  CycleCounts update(const std::vector<std::optional<Eigen::Isometry3d>>& world_from_body, double time,
-                     const DemandOf& demand_of, WorkLimit::Clock::time_point end = kNoCycleEnd);
-
-  /// One cycle of the listed pairs alone, where poses of bodies are not known: those by rule have none.
-  /// @param demand one per listed pair, in their order. A pair that is not watched costs nothing and
-  /// starts cold when it is watched again; one that is watched but not due keeps its state. What belongs to a
-  /// disabled pair is ignored.
+  /// One cycle. @param world_from_body each body at its newest pose, rigid (rotation orthonormal within
+  /// 1e-3), perhaps of another time than the others: by these pairs come near @param now seconds, from the
+  /// beginning that PairInput::time has @param locate where each pair is solved
+  /// @param demand_of A pair that is not watched costs nothing and starts cold when it is watched again; one
+  /// that is watched but not due keeps its state.
   /// @param end of the cycle. First the distance of each pair is proven, then niches and effects are added,
   /// in the order of doc/parameters.md ("A cycle has an end"). What there is no time for is put off
   /// (TrackedPair::put_off): the distance is proven, its status says so, niches_complete is false, and later
   /// cycles go on with the list. Answers then depend on the clock. Without an end, one seed gives one answer.
-  /// @throws Error for another number of demands than listed pairs
+  /// A warm cycle in which no pair comes near or leaves allocates nothing.
+  /// @throws Error for another number of poses than the scene has bodies
   /// After a cycle that threw, all pairs start cold.
-  CycleCounts update(const std::vector<PairDemand>& demand, const Locate& locate,
+  CycleCounts update(const Poses& world_from_body, double now, const DemandOf& demand_of,
+                     const Locate& locate, WorkLimit::Clock::time_point end = kNoCycleEnd);
+
+  /// One cycle at poses of one time, with the same demand of all enabled pairs or one for each.
+  /// @param time seconds, from any beginning @throws Error as above
+  CycleCounts update(const Poses& world_from_body, double time,
+                     const PairDemand& demand = {true, true, true, false},
+                     WorkLimit::Clock::time_point end = kNoCycleEnd);
+  CycleCounts update(const Poses& world_from_body, double time, const DemandOf& demand_of,
                      WorkLimit::Clock::time_point end = kNoCycleEnd);
 
   /// Every pair, or the one at this place in pairs(), starts cold in its next cycle. @throws Error when there
@@ -140,18 +133,14 @@ class SceneTracker {
  private:
   void begin();
   void refreshPairs();
-  void takePoses(const std::vector<std::optional<Eigen::Isometry3d>>& world_from_body, double time);
-  void findNear(const BodyPoses& poses);
-  template <typename Demand, typename LocatePair>
-  CycleCounts runCycle(CycleSolver& solver, std::size_t count, const Demand& demand_of,
-                       const LocatePair& locate, WorkLimit::Clock::time_point end,
-                       bool watches_warnings = true);
-  PairInput locate(const BodyPoses& poses, const ScenePair& pair) const;
+  void findNear(const Poses& world_from_body, double now);
+  CycleCounts runCycle(CycleSolver& solver, const DemandOf& demand_of, const Locate& locate,
+                       WorkLimit::Clock::time_point end, bool watches_warnings = true);
   bool prepareBodies(const PairDemand& demand, const PreparationSettings& settings,
                      WorkLimit::Clock::time_point end, PreparationCounts& counts);
-  void runPreparingCycles(const PairDemand& demand, const PreparationSettings& settings,
+  void runPreparingCycles(const Locate& locate, const PairDemand& demand, const PreparationSettings& settings,
                           WorkLimit::Clock::time_point end, PreparationCounts& counts);
-  void count(std::size_t pairs, CycleCounts& counts) const;
+  void count(CycleCounts& counts) const;
 
   SceneTrackerOptions options_;
   std::unique_ptr<CycleSolver> solver_;
@@ -165,7 +154,6 @@ class SceneTracker {
   std::uint64_t largest_retired_id_ = 0;  ///< of removed pairs
   bool interrupted_ = false;              ///< the last cycle threw, or the running one has not ended
   std::vector<TrackedPair*> to_solve_;
-  BodyPoses poses_;  ///< of update() with one pose for each body
 };
 
 }  // namespace concave_distance

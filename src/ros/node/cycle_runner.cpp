@@ -148,8 +148,7 @@ CycleRecord CycleRunner::runCycle(ros::Time now, WorkLimit::Clock::time_point st
   const PublishReport published =
       publishers_.publish(*served_, cycle_.pairs(), cycle_.others(),
                           std::max(kMarkerPeriods / marker_rate, kShortestMarkerLife), now);
-  publishers_.publishConstraints(
-      {cycle_.trackedPairs(), cycle_.frames(), *transforms_.current(), cycle_.others()}, now);
+  publishers_.publishConstraints({cycle_.trackedPairs(), cycle_.located(), cycle_.others()}, now);
   record.latency = published.latency;
   record.messages = published.messages;
   record.markers = published.markers;

@@ -1,13 +1,12 @@
 #include "distance_cycle.h"
 
 #include <algorithm>
+#include <functional>
 #include <optional>
 #include <unordered_map>
 #include <utility>
 
 #include "ros/tf/cloud_age.h"
-#include "ros/tf/tf_poses.h"
-#include "ros/time_difference.h"
 
 namespace concave_distance {
 
@@ -15,9 +14,7 @@ DistanceCycle::DistanceCycle(const TransformBuffer& transforms, CycleOptions opt
     : transforms_(transforms),
       options_(std::move(options)),
       tracker_({options_.threads, options_.stop, options_.prepares_in_background}),
-      frames_(std::make_unique<FramePoses>(options_.most_times)) {
-  frames_->setFrames(options_.reference_frame, {}, ros::Time());
-}
+      locate_(options_.reference_frame) {}
 
 void DistanceCycle::setScene(const Scene& scene, bool settings_changed) {
   const std::vector<std::optional<std::size_t>> places = tracker_.placesNow(scene);
@@ -34,18 +31,12 @@ void DistanceCycle::setScene(const Scene& scene, bool settings_changed) {
     body_places.push_back(body.frame_from_body);
     if (body.cloud) clouds.push_back({body_places.size() - 1, body.name, body.cloud});
   }
-  std::unique_ptr<FramePoses> frames;
-  if (!frames_->hasFrames(options_.reference_frame, body_frames)) {
-    frames = std::make_unique<FramePoses>(options_.most_times);
-    frames->setFrames(options_.reference_frame, body_frames, frames_->epoch());
-  }
   retired_.reserve(retired_.size() + pairs_.size());
   spare_.reserve(spare_.size() + pairs_.size());
   tracker_.setScene(scene, settings_changed);
 
   // Nothing below allocates: from here on it is the new scene that is followed.
-  if (frames) frames_ = std::move(frames);
-  frames_->setPlaces(std::move(body_places));
+  locate_.setBodies(std::move(body_frames), std::move(body_places));
   clouds_ = std::move(clouds);
   for (std::size_t index = 0; index < places.size(); ++index) {
     if (!next[index]) next[index] = std::move(pairs_[*places[index]]);
@@ -80,17 +71,18 @@ CycleCounts DistanceCycle::run(const std::vector<PairDemand>& demand, ros::Time 
 CycleCounts DistanceCycle::run(const SceneTracker::DemandOf& demand_of, ros::Time now,
                                WorkLimit::Clock::time_point end) {
   for (const auto& pair : pairs_) pair->was_watched = pair->demand().watched;
-  frames_->update(*transforms_.current(), now, options_.stale_after);
+  locate_.update(transforms_.current(), now, options_.stale_after);
   hideUnusableClouds(now);
-  const CycleCounts counts = tracker_.update(frames_->poses(), demand_of, end);
+  const CycleCounts counts =
+      tracker_.update(locate_.poses(), locate_.seconds(now), demand_of, std::ref(locate_), end);
   followPairs();
-  for (const auto& pair : pairs_) describe(*pair, now);
+  for (const auto& pair : pairs_) describe(*pair);
   return counts;
 }
 
 void DistanceCycle::hideUnusableClouds(ros::Time now) {
   for (const Cloud& cloud : clouds_) {
-    if (auto why = whyUnusable(cloud.name, *cloud.state, now)) frames_->hide(cloud.body, std::move(*why));
+    if (auto why = whyUnusable(cloud.name, *cloud.state, now)) locate_.hide(cloud.body, std::move(*why));
   }
 }
 
@@ -126,7 +118,7 @@ void DistanceCycle::followPairs() {
 }
 
 // Fills what the messages say about the cycle.
-void DistanceCycle::describe(PublishedPair& pair, ros::Time now) const {
+void DistanceCycle::describe(PublishedPair& pair) {
   const TrackedPair& tracked = *pair.tracked;
   pair.heading.accuracy = tracked.settings.tracker.accuracy;
   pair.heading.with_niches = tracked.demand.niches;
@@ -138,35 +130,11 @@ void DistanceCycle::describe(PublishedPair& pair, ros::Time now) const {
   if (!tracked.demand.due) return;
   const std::size_t body_a = tracked.origin->body_a;
   const std::size_t body_b = tracked.origin->body_b;
-  const FramePlace& place_a = frames_->place(body_a);
-  const FramePlace& place_b = frames_->place(body_b);
-  const ros::Time stamp = frames_->commonStamp(body_a, body_b);
-  if (place_a.status == TransformStatus::Missing || place_b.status == TransformStatus::Missing) {
-    pair.heading.stamp = now;
-    pair.status = toStatus(TransformStatus::Missing,
-                           (place_a.status == TransformStatus::Missing ? place_a : place_b).message);
-    return;
-  }
-  pair.heading.stamp = stamp.isZero() ? now : stamp;
-  if (!tracked.input.located && place_a.status == TransformStatus::Ok &&
-      place_b.status == TransformStatus::Ok) {
-    pair.status =
-        toStatus(TransformStatus::Missing, "the transforms of '" + tracked.body_a->frame + "' and '" +
-                                               tracked.body_b->frame + "' have no time in common yet");
-    return;
-  }
-  if (!tracked.input.located) {
-    const FramePlace& stale = place_a.status == TransformStatus::Stale ? place_a : place_b;
-    pair.status =
-        toStatus(TransformStatus::Stale,
-                 !stale.message.empty()
-                     ? stale.message
-                     : describeAge({options_.reference_frame, tracked.body_a->frame, tracked.body_b->frame},
-                                   secondsBetween(stamp, now), options_.stale_after));
-    return;
-  }
-  pair.status = toStatus(TransformStatus::Ok, "");
-  pair.heading.reference_from_a = frames_->referenceFrom(body_a, body_b);
+  const FrameTransform place = locate_.placeOfA(body_a, body_b, tracked.input.located);
+  pair.heading.stamp = place.stamp;
+  pair.status = toStatus(place.status, place.message);
+  if (place.status != TransformStatus::Ok) return;
+  pair.heading.reference_from_a = place.target_from_source;
   if (tracked.state == PairState::BeyondCutoff) pair.status.code = PairStatus::BEYOND_CUTOFF;
   if (tracked.state == PairState::Stopped) {
     pair.status.code = PairStatus::DISABLED;

@@ -11,7 +11,7 @@
 #include "concave_distance/scene/scene.h"
 #include "concave_distance/scene/scene_tracker.h"
 #include "ros/messages/published_pair.h"
-#include "ros/tf/frame_poses.h"
+#include "ros/tf/tf_locate.h"
 
 namespace concave_distance {
 
@@ -21,7 +21,6 @@ struct CycleOptions {
   std::uint32_t threads = 0;                ///< that solve pairs; 0: one per core, 1: only the caller's
   const std::atomic<bool>* stop = nullptr;  ///< set: a cycle ends without solving the pairs that are left
   bool prepares_in_background = false;      ///< as SceneTrackerOptions
-  std::size_t most_times = FramePoses::kMostTimes;  ///< as FramePoses
 };
 
 /// Tracks a scene at the poses that tf2 knows. Knows the transforms but no topic. One thread at
@@ -45,8 +44,8 @@ class DistanceCycle {
 
   const PublishedPairs& pairs() const { return pairs_; }
   const SceneTracker::Pairs& trackedPairs() const { return tracker_.pairs(); }
-  /// Where the bodies' frames were in the last run().
-  const FramePoses& frames() const { return *frames_; }
+  /// Where the bodies were in the last run().
+  TfLocate& located() { return locate_; }
   /// Counts the pairs by rule that pairs() does not have.
   const OtherPairs& others() const { return tracker_.others(); }
   /// Pairs that left the scene with an alert raised, which setScene took back; reported once.
@@ -61,12 +60,12 @@ class DistanceCycle {
   };
   void hideUnusableClouds(ros::Time now);
   void followPairs();
-  void describe(PublishedPair& pair, ros::Time now) const;
+  void describe(PublishedPair& pair);
 
   const TransformBuffer& transforms_;
   CycleOptions options_;
   SceneTracker tracker_;
-  std::unique_ptr<FramePoses> frames_;
+  TfLocate locate_;
   std::vector<Cloud> clouds_;
   PublishedPairs pairs_;
   PublishedPairs spare_;  ///< of an earlier order, for followPairs()

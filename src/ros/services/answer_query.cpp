@@ -16,7 +16,7 @@
 #include "ros/messages/contact_conversions.h"
 #include "ros/messages/conversions.h"
 #include "ros/tf/cloud_age.h"
-#include "ros/tf/tf_poses.h"
+#include "ros/tf/tf_locate.h"
 #include "scene/cloud_bodies.h"
 #include "scene/scene_edits.h"
 
@@ -84,19 +84,21 @@ void requireRunning(const QueryContext& context) {
   }
 }
 
-PairTransforms locate(const BodyPlace& a, const BodyPlace& b, const QueryContext& context, ros::Time stamp,
-                      ros::Time now) {
-  const PairFrames frames{context.reference_frame, a.frame, b.frame};
-  waitForFrames(*context.transforms, frames.frame_a, frames.frame_b, stamp, waitingTime(context));
-  waitForFrames(*context.transforms, frames.reference, frames.frame_a, stamp, waitingTime(context));
-  const std::shared_ptr<const tf2::BufferCore> buffer = context.transforms->current();
-  PairAncestors ancestors;
-  PairTransforms transforms = stamp.isZero()
-                                  ? lookUpPair(*buffer, frames, now, context.stale_after, ancestors)
-                                  : lookUpPairAt(*buffer, frames, stamp);
-  transforms.a_from_b = a.frame_from_body.inverse() * transforms.a_from_b * b.frame_from_body;
-  transforms.reference_from_a = transforms.reference_from_a * a.frame_from_body;
-  return transforms;
+/// Says where two bodies are together.
+struct LocatedPair {
+  FrameTransform reference_from_a;  ///< with why there is none
+  Eigen::Isometry3d a_from_b = Eigen::Isometry3d::Identity();
+};
+
+LocatedPair locate(const BodyPlace& a, const BodyPlace& b, const QueryContext& context, ros::Time stamp,
+                   ros::Time now) {
+  waitForFrames(*context.transforms, a.frame, b.frame, stamp, waitingTime(context));
+  waitForFrames(*context.transforms, context.reference_frame, a.frame, stamp, waitingTime(context));
+  TfLocate locate(context.reference_frame);
+  locate.setBodies({a.frame, b.frame}, {a.frame_from_body, b.frame_from_body});
+  locate.update(context.transforms->current(), now, context.stale_after, stamp);
+  const PairInput input = locate(0, 1);
+  return {locate.placeOfA(0, 1, input.located), input.a_from_b};
 }
 
 // Says why the clouds among two bodies leave nothing to compute; nothing: they do not.
@@ -180,12 +182,13 @@ QueryAnswer answer(const DistanceQuery& query, const Scene& scene, const QueryCo
       placeOf(body_a, query.use_pose_a != 0, query.pose_a, by_joints[0], context.reference_frame, "pose_a");
   const BodyPlace place_b =
       placeOf(body_b, query.use_pose_b != 0, query.pose_b, by_joints[1], context.reference_frame, "pose_b");
-  const PairTransforms transforms = locate(place_a, place_b, context, query.stamp, now);
-  heading.stamp = transforms.status == TransformStatus::Missing ? now : transforms.stamp;
-  heading.reference_from_a = transforms.reference_from_a;
+  const LocatedPair located = locate(place_a, place_b, context, query.stamp, now);
+  const FrameTransform& place = located.reference_from_a;
+  heading.stamp = place.status == TransformStatus::Missing ? now : place.stamp;
+  heading.reference_from_a = place.target_from_source;
   QueryAnswer answer;
-  if (transforms.status != TransformStatus::Ok) {
-    const PairStatus status = toStatus(transforms.status, transforms.message);
+  if (place.status != TransformStatus::Ok) {
+    const PairStatus status = toStatus(place.status, place.message);
     answer.result = emptyNiches(heading, status);
     if (query.with_contacts != 0) {
       answer.contacts = emptyContacts(heading, status);
@@ -211,7 +214,7 @@ QueryAnswer answer(const DistanceQuery& query, const Scene& scene, const QueryCo
       std::min(parameters.largest_niche_count, std::max(1U, context.largest_niche_count));
   parameters.stop = context.stop;
   const PairSolution solution =
-      solveOnce(heading.pair, body_a.mesh, body_b.mesh, parameters, transforms.a_from_b);
+      solveOnce(heading.pair, body_a.mesh, body_b.mesh, parameters, located.a_from_b);
   if (settings.warning_distance && solution.distance < *settings.warning_distance) {
     heading.warning = true;
   }

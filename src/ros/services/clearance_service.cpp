@@ -9,7 +9,6 @@
 #include "clearance_conversions.h"
 #include "concave_distance/base/error.h"
 #include "respond.h"
-#include "ros/tf/frame_poses.h"
 #include "ros/tf/scene_states.h"
 #include "ros/tf/tf_poses.h"
 
@@ -159,14 +158,12 @@ SceneState ClearanceService::stateNow(const GetClearance::Request& request, cons
     frames.push_back(body.frame);
     places.push_back(body.frame_from_body);
   }
-  FramePoses poses;
-  poses.setFrames(context_.reference_frame, frames, ros::Time());
-  poses.setPlaces(std::move(places));
-  const std::shared_ptr<const tf2::BufferCore> buffer = context_.transforms->current();
-  poses.update(*buffer, ros::Time::now(), context_.stale_after);
+  TfLocate locate(context_.reference_frame);
+  locate.setBodies(std::move(frames), std::move(places));
+  locate.update(context_.transforms->current(), ros::Time::now(), context_.stale_after);
   SceneStates states;
   states.setScene(jointsOf(served), context_.reference_frame);
-  states.update(*buffer, poses);
+  states.update(locate);
   SceneState state = states.state();
   for (std::size_t i = 0; i < given.size(); ++i) {
     if (!given[i]) continue;

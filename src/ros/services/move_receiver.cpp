@@ -10,7 +10,7 @@
 #include "request_conversions.h"
 #include "respond.h"
 #include "ros/callback_guard.h"
-#include "ros/tf/frames_now.h"
+#include "ros/tf/tf_locate.h"
 #include "scene/apply_operations.h"
 
 namespace concave_distance {

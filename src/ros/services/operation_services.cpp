@@ -13,7 +13,7 @@
 #include "operation_conversions.h"
 #include "request_conversions.h"
 #include "respond.h"
-#include "ros/tf/frames_now.h"
+#include "ros/tf/tf_locate.h"
 #include "scene/scene_edits.h"
 
 namespace concave_distance {

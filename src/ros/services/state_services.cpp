@@ -10,7 +10,7 @@
 #include "loading/saved_scene.h"
 #include "loading/scene_files.h"
 #include "respond.h"
-#include "ros/tf/frames_now.h"
+#include "ros/tf/tf_locate.h"
 #include "scene/reload_scene.h"
 #include "state_conversions.h"
 

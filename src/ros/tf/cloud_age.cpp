@@ -8,9 +8,9 @@
 
 namespace concave_distance {
 
-std::optional<FramePlace> whyUnusable(const std::string& name, const CloudState& cloud, ros::Time now) {
+std::optional<FrameTransform> whyUnusable(const std::string& name, const CloudState& cloud, ros::Time now) {
   const CloudSettings& settings = *cloud.settings;
-  FramePlace place;
+  FrameTransform place;
   if (!cloud.stamp) {
     place.message = "cloud '" + name + "': nothing has come on '" + settings.topic +
                     "' yet that could be used (diagnostics, clouds, says why)";
@@ -21,13 +21,9 @@ std::optional<FramePlace> whyUnusable(const std::string& name, const CloudState&
   const double age = secondsBetween(stamp, now);
   if (std::abs(age) <= settings.stale_after) return std::nullopt;
   TextStream message;
-  message << "cloud '" << name << "' on '" << settings.topic << "' is ";
-  if (age > 0.0) {
-    message << secondsText(age) << " s old";
-  } else {
-    message << secondsText(-age) << " s ahead of the clock";
-  }
-  message << "; its stale_after is " << settings.stale_after << " s";
+  message << "cloud '" << name << "' on '" << settings.topic << "' is " << secondsText(std::abs(age))
+          << (age > 0.0 ? " s old" : " s ahead of the clock") << "; its stale_after is "
+          << settings.stale_after << " s";
   place.status = TransformStatus::Stale;
   place.message = message.str();
   place.stamp = stamp;

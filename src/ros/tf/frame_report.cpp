@@ -14,11 +14,7 @@ namespace {
 constexpr int kLongestPath = 1000;
 
 std::string listed(const std::set<std::string>& names) {
-  TextStream list;
-  for (const std::string& name : names) {
-    list << (list.tellp() > 0 ? ", " : "") << "'" << name << "'";
-  }
-  return list.str();
+  return "'" + joinedText({names.begin(), names.end()}, "', '") + "'";
 }
 
 std::string rootOf(const tf2::BufferCore& buffer, std::string frame) {

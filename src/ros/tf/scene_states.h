@@ -1,13 +1,11 @@
 #pragma once
 
-#include <tf2/buffer_core.h>
-
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "concave_distance/kinematics/scene_kinematics.h"
-#include "frame_poses.h"
+#include "tf_locate.h"
 
 namespace concave_distance {
 
@@ -16,8 +14,8 @@ namespace concave_distance {
 class SceneStates {
  public:
   void setScene(std::shared_ptr<const SceneKinematics> joints, const std::string& reference_frame);
-  /// @param frames of the bodies, updated in this cycle
-  void update(const tf2::BufferCore& buffer, const FramePoses& frames);
+  /// @param locate updated in this cycle
+  void update(TfLocate& locate);
 
   /// Bodies that are not known now, and those on links that are not, have no pose.
   const SceneState& state() const { return state_; }
@@ -25,7 +23,7 @@ class SceneStates {
   const std::vector<std::string>& problems() const { return problems_; }
 
  private:
-  void placeRobot(const tf2::BufferCore& buffer, const FramePoses& frames, std::size_t robot);
+  void placeRobot(TfLocate& locate, std::size_t robot);
 
   std::shared_ptr<const SceneKinematics> joints_;
   std::string reference_frame_;

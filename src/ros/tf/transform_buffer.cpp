@@ -24,10 +24,7 @@ constexpr double kBetweenKinds = 1.0;  // s
 void normalize(geometry_msgs::Quaternion& q) {
   const double norm = std::sqrt(q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w);
   if (std::abs(norm - 1.0) <= 4.0 * std::numeric_limits<double>::epsilon()) return;
-  q.x /= norm;
-  q.y /= norm;
-  q.z /= norm;
-  q.w /= norm;
+  for (double* part : {&q.x, &q.y, &q.z, &q.w}) *part /= norm;
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "concave_distance/scene/body_poses.h"
+#include "concave_distance/scene/cycle_counts.h"
 #include "ros/messages/published_pair.h"
 
 namespace concave_distance {

@@ -53,7 +53,7 @@ void ConstraintTopic::publish(const ConstraintInput& input, ros::Time now) {
   message->constraint_distance = options_.settings.distance;
   if (!problem_.empty()) message->problems.push_back(problem_);
   if (rows_) {
-    states_.update(input.buffer, input.frames);
+    states_.update(input.locate);
     rows_->update(input.pairs, states_.state(), now.toSec());
     fillConstraints(*rows_, *message);
     if (input.others.cut > 0) {
@@ -80,8 +80,7 @@ ros::Time ConstraintTopic::oldestTransform(const ConstraintInput& input, ros::Ti
     const std::size_t b = pair->origin->body_b;
     if (!pair->demand.due || std::max(a, b) >= joints_->bodyCount() || !concerns(*pair)) continue;
     if (!pair->input.located) continue;  // said in `unlisted`
-    const ros::Time stamp = input.frames.commonStamp(a, b);
-    if (!stamp.isZero() && stamp < oldest) oldest = stamp;
+    oldest = std::min(oldest, input.locate.placeOfA(a, b, true).stamp);
   }
   return oldest;
 }

@@ -21,8 +21,7 @@ struct ConstraintOptions {
 /// Holds what rows need of one cycle.
 struct ConstraintInput {
   const SceneTracker::Pairs& pairs;
-  const FramePoses& frames;
-  const tf2::BufferCore& buffer;
+  TfLocate& locate;
   const OtherPairs& others;
 };
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "concave_distance/scene/body_poses.h"
+#include "concave_distance/scene/cycle_counts.h"
 #include "ros/messages/published_pair.h"
 #include "watched_topic.h"
 

@@ -10,12 +10,13 @@
 #include <string>
 #include <vector>
 
-#include "ros/tf/tf_poses.h"
-#include "ros/transform_message.h"
+#include "ros/located_pair.h"
 
 namespace concave_distance::transform_buffer_test {
 namespace {
 
+using test::located;
+using test::LocatedPair;
 using test::transformOf;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -34,13 +35,12 @@ class TransformBufferTest : public ::testing::Test {
     return !problem;
   }
   // Returns where a cycle sees b from a.
-  PairTransforms look(const std::string& reference = "world") {
-    PairAncestors ancestors;
-    return lookUpPair(*buffer.current(), {reference, "a", "b"}, now, 1.0, ancestors);
+  LocatedPair look(const std::string& reference = "world") {
+    return located(buffer.current(), reference, "a", "b", now, 1.0);
   }
   double gap() {
-    const PairTransforms transforms = look();
-    return transforms.status == TransformStatus::Ok ? transforms.a_from_b.translation().x() : std::nan("");
+    const LocatedPair pair = look();
+    return pair.place.status == TransformStatus::Ok ? pair.a_from_b.translation().x() : std::nan("");
   }
   void expectRefusal(const geometry_msgs::TransformStamped& transform, const std::string& part,
                      bool fixed = false) {
@@ -74,7 +74,7 @@ TEST_F(TransformBufferTest, AStampWithinTheToleranceDoesNotHoldAFrameStillEither
     put("b", 20.0 + step, now);
     EXPECT_EQ(gap(), 20.0 + step) << "at " << 0.1 * step << " s";
   }
-  EXPECT_EQ(look().stamp, now);
+  EXPECT_EQ(look().place.stamp, now);
 }
 
 TEST_F(TransformBufferTest, AFrameKnownOnlyAheadOfTheClockIsUsed) {
@@ -193,12 +193,12 @@ TEST_F(TransformBufferTest, AClockThatJumpsFarAndReturnsLeavesNothingBehind) {
   put("a", 0.0, now, "world", true);
   put("b", 1.0, now);
   now = ros::Time(4.0e9);
-  EXPECT_EQ(look().status, TransformStatus::Stale);
+  EXPECT_EQ(look().place.status, TransformStatus::Stale);
   EXPECT_TRUE(put("b", 2.0, now)) << last_problem;
   EXPECT_EQ(gap(), 2.0);
   now = ros::Time(1001.0);
   buffer.checkClock();
-  EXPECT_EQ(look().status, TransformStatus::Missing) << "what was sent at 4e9 s is gone";
+  EXPECT_EQ(look().place.status, TransformStatus::Missing) << "what was sent at 4e9 s is gone";
   expectRefusal(transformOf("b", 2.5, ros::Time(4.0e9)), "ahead");
   EXPECT_TRUE(put("b", 3.0, now)) << last_problem;
   EXPECT_EQ(gap(), 3.0) << "the fixed transform outlives both jumps";
@@ -210,10 +210,9 @@ TEST_F(TransformBufferTest, AReferenceFrameThatGetsAParentMakesNothingStale) {
   ASSERT_TRUE(put("world", 5.0, at(-8.0), "map"));
   EXPECT_EQ(gap(), 2.0);
   put("a", 0.0, now, "world");
-  PairAncestors ancestors;
-  const PairTransforms in_world = lookUpPair(*buffer.current(), {"world", "world", "b"}, now, 1.0, ancestors);
-  ASSERT_EQ(in_world.status, TransformStatus::Ok) << in_world.message;
-  EXPECT_EQ(in_world.stamp, now);
+  const LocatedPair in_world = located(buffer.current(), "world", "world", "b", now, 1.0);
+  ASSERT_EQ(in_world.place.status, TransformStatus::Ok) << in_world.place.message;
+  EXPECT_EQ(in_world.place.stamp, now);
   EXPECT_EQ(in_world.a_from_b.translation().x(), 2.0);
 }
 
@@ -222,7 +221,7 @@ TEST_F(TransformBufferTest, AFarRootCostsTheReferenceFrameNoDigits) {
   put("reference", 0.1, now, "odom");
   put("a", 0.3, now, "odom");
   put("b", 0.7, now, "odom");
-  EXPECT_NEAR(look("reference").reference_from_a.translation().x(), 0.2, 1e-15);
+  EXPECT_NEAR(look("reference").place.target_from_source.translation().x(), 0.2, 1e-15);
 }
 
 TEST_F(TransformBufferTest, ALoopIsRefusedAndAnotherParentTaken) {
@@ -247,7 +246,7 @@ TEST_F(TransformBufferTest, AFrameThatWasFixedIsStaleWhenItMovesNoMore) {
   ASSERT_TRUE(put("b", 2.0, now)) << last_problem;
   EXPECT_EQ(gap(), 2.0);
   now = at(7.0);
-  EXPECT_EQ(look().status, TransformStatus::Stale);
+  EXPECT_EQ(look().place.status, TransformStatus::Stale);
 }
 
 TEST_F(TransformBufferTest, AFrameThatMovedIsFixedWhenAStaticTransformSaysSo) {
@@ -278,18 +277,17 @@ TEST_F(TransformBufferTest, InventedNamesDoNotFillTheMemoryAndAreForgotten) {
   EXPECT_TRUE(put("b", 2.0, now, "a")) << last_problem;
 }
 
-TEST(TfPosesOfFarTimes, AreMissingAndDoNotThrow) {
-  tf2::BufferCore core;
-  core.setTransform(transformOf("a", 0.0, ros::Time(1000.0)), "test", false);
-  core.setTransform(transformOf("b", 1.0, ros::Time(1000.0)), "test", false);
-  for (const std::uint32_t seconds : {1U, 4'000'000'000U, 4'294'967'295U}) {
-    const PairTransforms transforms = lookUpPairAt(core, {"world", "a", "b"}, ros::Time(seconds, 0));
-    EXPECT_EQ(transforms.status, TransformStatus::Missing) << seconds;
-    EXPECT_FALSE(transforms.message.empty());
-  }
-  PairAncestors ancestors;
+TEST(TransformsOfFarTimes, AreMissingAndDoNotThrow) {
+  const auto core = std::make_shared<tf2::BufferCore>();
+  core->setTransform(transformOf("a", 0.0, ros::Time(1000.0)), "test", false);
+  core->setTransform(transformOf("b", 1.0, ros::Time(1000.0)), "test", false);
   const ros::Time far(4'000'000'000U, 0);
-  EXPECT_EQ(lookUpPair(core, {"world", "a", "b"}, far, 1.0, ancestors).status, TransformStatus::Stale);
+  for (const std::uint32_t seconds : {1U, 4'000'000'000U, 4'294'967'295U}) {
+    const FrameTransform place = located(core, "world", "a", "b", far, 1.0, ros::Time(seconds, 0)).place;
+    EXPECT_EQ(place.status, TransformStatus::Missing) << seconds;
+    EXPECT_FALSE(place.message.empty());
+  }
+  EXPECT_EQ(located(core, "world", "a", "b", far, 1.0).place.status, TransformStatus::Stale);
 }
 
 }  // namespace
