@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kLetterShare = 2.0;  // height of the letters over the scale of the markers
 constexpr double kLift = 1.0;         // height of a label's middle above its point, in letters
-constexpr std::size_t kSpaces = 4;    // beside its point; two spaces are as wide as three letters
+constexpr std::size_t kSpaces = 4;    // beside its point; a space is as wide as one and a half letters
 constexpr double kRoundSteps[] = {1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0};
 
 struct Unit {
@@ -54,7 +54,7 @@ visualization_msgs::Marker emptyMarker(const std_msgs::Header& header, const std
 void makeLabel(const std::string& text, const Eigen::Vector3d& point, double scale,
                visualization_msgs::Marker& marker) {
   marker.type = visualization_msgs::Marker::TEXT_VIEW_FACING;
-  marker.text = std::string(kSpaces + 2 * text.size() / 3, ' ') + text;
+  marker.text = std::string(kSpaces + 5 * text.size() / 6, ' ') + text;
   marker.scale.z = kLetterShare * scale;
   marker.pose.position = toPoint(point + kLift * marker.scale.z * Eigen::Vector3d::UnitZ());
 }

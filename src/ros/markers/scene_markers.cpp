@@ -21,8 +21,8 @@ using visualization_msgs::Marker;
 constexpr double kScaleShare = 0.009;   // diameter of the nearest points over the scene's size
 constexpr double kFarShare = 0.2;       // end of the colour gradient over the scene's size
 constexpr double kSizeOfNothing = 1.0;  // m
-constexpr double kRow = 1.5;            // from a label to the one above it, in letters
-constexpr double kWidth = 12.0;         // of a label that others are kept from, likewise
+constexpr double kRow = 1.2;            // from a label to the one above it, in letters
+constexpr double kWidth = 8.0;          // of a label that others are kept from, likewise
 constexpr std::size_t kMostStacked = 50;
 constexpr double kTintOffset = 0.1;  // distance of a red copy from the surface, over the scale
 constexpr double kTintLives = 3.0;   // lifetime of a red copy, in renewals
@@ -41,7 +41,7 @@ MarkerStyle fitted(MarkerStyle style, double size) {
   return style;
 }
 
-// Raises labels that would cover one of a nearer pair.
+// Puts labels that would cover one of a nearer pair above that one: in a column no view lets them meet.
 void stack(std::vector<Marker>& labels) {
   for (std::size_t i = 0; i < std::min(labels.size(), kMostStacked); ++i) {
     geometry_msgs::Point& place = labels[i].pose.position;
@@ -53,7 +53,8 @@ void stack(std::vector<Marker>& labels) {
     };
     const auto end = labels.begin() + static_cast<std::ptrdiff_t>(i);
     for (auto at = labels.begin(); (at = std::find_if(labels.begin(), end, is_covered)) != end;) {
-      place.z = at->pose.position.z + kRow * letters;
+      place = at->pose.position;
+      place.z += kRow * letters;
     }
   }
 }

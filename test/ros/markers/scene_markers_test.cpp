@@ -193,6 +193,7 @@ PairContactState manyContacts(std::size_t count) {
 TEST(SceneMarkers, NameEveryDrawnPairAboveItsLineAndDrawTheNearestThick) {
   Picture picture(12);
   picture.style.pair_count = 0;
+  picture.style.scale = 0.001;  // no label is near another one
   const MarkerArray message = picture.draw();
   const std::vector<Marker> texts = withKind(message, "/text");
   ASSERT_EQ(texts.size(), 12U);
@@ -211,13 +212,14 @@ TEST(SceneMarkers, NameEveryDrawnPairAboveItsLineAndDrawTheNearestThick) {
 TEST(SceneMarkers, LabelsAtOnePlaceStandAboveEachOtherTheNearestLowest) {
   Picture picture(3);
   picture.contacts = {manyContacts(6)};
-  for (Contact& contact : picture.contacts[0].contacts) contact.centroid = geometry_msgs::Point();
+  for (Contact& contact : picture.contacts[0].contacts) contact.centroid.x *= 1e-6;
   const std::vector<Marker> labels = withKind(picture.draw(), "/contact_text");
   ASSERT_EQ(labels.size(), 6U);
   for (std::size_t k = 1; k < labels.size(); ++k) {
     EXPECT_LT(labels[k].id, labels[k - 1].id) << "the deepest first";
+    EXPECT_EQ(labels[k].pose.position.x, labels[0].pose.position.x);
     EXPECT_GT(labels[k].pose.position.z, labels[k - 1].pose.position.z + labels[k].scale.z);
-    EXPECT_LT(labels[k].pose.position.z, labels[k - 1].pose.position.z + 2.0 * labels[k].scale.z);
+    EXPECT_LT(labels[k].pose.position.z, labels[k - 1].pose.position.z + 1.5 * labels[k].scale.z);
   }
 }
 
