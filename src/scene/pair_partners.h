@@ -15,9 +15,9 @@ struct PairPartners {
   std::vector<std::string> names;        ///< empty: every body that can move relative to its frame
   bool none = false;                     ///< no body at all
   std::vector<std::string> may_touch{};  ///< bodies left out; not together with `names`
-  bool may_be_gone = false;              ///< `names` without a body are left out
   /// Returns whether two frames do not move relative to each other, besides those that Scene::rigid joins.
   std::function<bool(const std::string& frame_a, const std::string& frame_b)> is_rigid{};
+  bool may_be_gone = false;  ///< `names` without a body are left out
 };
 
 struct AddedPairs {
