@@ -1,5 +1,5 @@
 // Runs of the thesis's experiments for counting every operation that they take, not the evaluations alone:
-// scripts/evaluation/count_run_flops.py runs it under callgrind, which counts between the two marks of a run only.
+// scripts/evaluation/count_run_flops.py runs it under callgrind, which counts between a run's two marks.
 //
 //   run_flops thesis/experiments/table_3_4.yaml [more ...] [--runs 3] [--meshes meshes/thesis]
 //

@@ -254,7 +254,7 @@ TEST_F(ImportProcess, WorksWhenTheStandardStreamsAreClosed) {
   EXPECT_EQ(triangles, 4U);
 }
 
-// Every file of test/support/hostile_meshes.py: served or refused, as the file says, and this program goes on.
+// Each file of test/support/hostile_meshes.py is served or refused, as the file says.
 TEST(HostileMeshes, AreServedOrRefusedAndNothingElse) {
   const test::TemporaryFolder folder;
   const std::vector<test::HostileMesh> meshes = test::writeHostileMeshes(folder.path());
