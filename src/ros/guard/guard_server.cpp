@@ -17,8 +17,8 @@ namespace concave_distance {
 namespace {
 
 constexpr const char* kRowsTopic = "/concave_distance/constraints";
-constexpr std::uint32_t kQueueLength = 2;  // that of MoveIt Servo's own collision check
-constexpr int kFrameHops = 100;            // a longer chain of tf frames is a loop
+constexpr std::uint32_t kScaleQueueLength = 2;  // that of MoveIt Servo's own collision check
+constexpr int kFrameHops = 100;                 // a longer chain of tf frames is a loop
 
 GuardParameters readGuardParameters(const ros::NodeHandle& node) {
   XmlRpc::XmlRpcValue values;
@@ -49,8 +49,8 @@ void GuardServer::act(const char* what, const Change& change) {
 
 GuardServer::GuardServer(ros::NodeHandle node, ros::NodeHandle private_node)
     : parameters_(readGuardParameters(private_node)), guard_(parameters_.guard) {
-  scale_publisher_ = private_node.advertise<std_msgs::Float64>("scale", kQueueLength);
-  state_publisher_ = private_node.advertise<GuardState>("state", kQueueLength, true);
+  scale_publisher_ = private_node.advertise<std_msgs::Float64>("scale", kScaleQueueLength);
+  state_publisher_ = private_node.advertise<GuardState>("state", kScaleQueueLength, true);
   row_subscriber_ =
       node.subscribe(kRowsTopic, 1, &GuardServer::takeRows, this, ros::TransportHints().tcpNoDelay());
   if (parameters_.joints) {
