@@ -210,16 +210,12 @@ TEST_P(CycleEnd, FindsTheLastNichesAfterAllOthers) {
   const double cold = secondsOfCycle(tracker, 0, {true, true, true, false});
   std::vector<PairDemand> demand(scene.pairs.size(), {true, true, true, false});
   demand[nearest].niches_last = true;  // it would come first
-  const auto locate = [&](std::size_t index) {
-    PairInput input;
-    input.a_from_b = poseOf(poses, scene.pairs[index]);
-    return input;
-  };
+  const auto demand_of = [&](std::size_t index, const TrackedPair&) { return demand[index]; };
   std::size_t put_off = 0;
   for (const double share : {0.3, 0.5, 0.7, 0.9, 5.0}) {
     SceneTracker fresh({1, nullptr});
     fresh.setScene(scene);
-    put_off += fresh.update(demand, locate, in(share * cold)).put_off;
+    put_off += fresh.update(poses, 0.0, demand_of, in(share * cold)).put_off;
     if (fresh.pairs()[nearest]->solution.niches.empty()) continue;
     for (std::size_t index = 0; index < scene.pairs.size(); ++index) {
       EXPECT_TRUE(index == nearest || !fresh.pairs()[index]->put_off) << scene.pairs[index].name;
