@@ -212,7 +212,7 @@ TEST_P(CycleEnd, FindsTheLastNichesAfterAllOthers) {
   demand[nearest].niches_last = true;  // it would come first
   const auto demand_of = [&](std::size_t index, const TrackedPair&) { return demand[index]; };
   std::size_t put_off = 0;
-  for (const double share : {0.3, 0.5, 0.7, 0.9, 5.0}) {
+  for (const double share : {0.02, 0.1, 0.3, 0.5, 0.7, 0.9, 5.0}) {
     SceneTracker fresh({1, nullptr});
     fresh.setScene(scene);
     put_off += fresh.update(poses, 0.0, demand_of, in(share * cold)).put_off;
