@@ -40,23 +40,17 @@ void requireParameters(const ClearanceParameters& parameters) {
           *parameters.threshold, "allowed: metres from 0");
 }
 
-/// Says which of two bodies is A of their pair, and whether the pair is enabled.
-struct WatchedPair {
-  std::size_t a;
-  std::size_t b;
-};
+/// Body A and body B of an enabled pair.
+using WatchedPair = std::pair<std::size_t, std::size_t>;
 
-std::optional<WatchedPair> watchedPair(const Scene& scene, std::size_t earlier, std::size_t later) {
-  if (const auto listed = scene.pairs.find(earlier, later)) {
+std::optional<WatchedPair> watchedPair(const Scene& scene, std::size_t body, std::size_t other) {
+  if (const auto listed = scene.pairs.find(body, other)) {
     const ScenePair& pair = scene.pairs[*listed];
     return pair.enabled ? std::optional<WatchedPair>({pair.body_a, pair.body_b}) : std::nullopt;
   }
-  const PairRule* rule = ruleOf(scene, earlier, later);
+  const PairRule* rule = ruleOf(scene, body, other);
   if (rule == nullptr || !rule->is_enabled) return std::nullopt;
-  const auto& added = scene.bodies[later].added_rule;
-  const bool is_turned =
-      (added && added->watches(scene.bodies[earlier].serial)) || rule->order == PairOrder::Later;
-  return is_turned ? WatchedPair{later, earlier} : WatchedPair{earlier, later};
+  return rule->ordered(body, other);
 }
 
 /// Finds the pairs that a motion moves, and what their bodies are solved by.
@@ -103,13 +97,13 @@ class MovedPairs {
     if (first.elements == second.elements) return;
     const auto watched = watchedPair(scene_, earlier, later);
     if (!watched) return;
-    ClearancePair pair{watched->a,
-                       watched->b,
-                       &bodyOf(watched->a),
-                       &bodyOf(watched->b),
+    ClearancePair pair{watched->first,
+                       watched->second,
+                       &bodyOf(watched->first),
+                       &bodyOf(watched->second),
                        scene_.bodies[earlier].margin + scene_.bodies[later].margin,
                        0.0,
-                       {paths_, bodyOf(watched->a).path, bodyOf(watched->b).path}};
+                       {paths_, bodyOf(watched->first).path, bodyOf(watched->second).path}};
     const auto reach = [](const ClearanceBody& body) {
       return body.bounds.centre.norm() + body.bounds.radius;
     };

@@ -1,42 +1,27 @@
 #include "filtered_pairs.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <map>
+#include <memory>
 #include <set>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "kinematics/wording.h"
 
 namespace concave_distance::detail {
 namespace {
 
-// Pairs that the rules would give of sources whose frames never move against each other.
-std::size_t countRigidPairs(const SceneParts& parts, const PairSelection& selection) {
-  std::map<std::string, std::vector<std::size_t>> rigid;  // sources by what stands for their frames
-  for (std::size_t i = 0; i < parts.sources.size(); ++i) {
-    rigid[parts.rigid.rootOf(parts.sources[i].frame)].push_back(i);
-  }
-  std::size_t count = 0;
-  for (const auto& [root, sources] : rigid) {
-    std::vector<std::size_t> of_class(selection.rules.classes, 0);
-    for (const std::size_t later : sources) {
-      for (std::size_t row = 0; row < of_class.size(); ++row) {
-        if (selection.rules.of(row, selection.classes[later]).is_watched) count += of_class[row];
-      }
-      ++of_class[selection.classes[later]];
-    }
-  }
-  return count;
-}
+using SourcePair = std::pair<std::size_t, std::size_t>;  // the lesser number first
 
-}  // namespace
-
-std::vector<std::pair<std::size_t, std::size_t>> filteredPairs(const SceneParts& parts) {
+std::vector<SourcePair> filteredPairs(const SceneParts& parts) {
   std::map<std::string, std::size_t> source_of_name;
   for (std::size_t i = 0; i < parts.sources.size(); ++i) source_of_name[parts.sources[i].name] = i;
   std::set<LinkPair> all = parts.disabled_by_srdf;
   all.insert(parts.adjacent.begin(), parts.adjacent.end());
-  std::vector<std::pair<std::size_t, std::size_t>> filtered;
+  std::vector<SourcePair> filtered;
   for (const LinkPair& pair : all) {
     const auto a = source_of_name.find(pair.first);
     const auto b = source_of_name.find(pair.second);
@@ -47,11 +32,36 @@ std::vector<std::pair<std::size_t, std::size_t>> filteredPairs(const SceneParts&
   return filtered;
 }
 
-void noteFilteredPairs(const SceneParts& parts, PairSelection& selection) {
+// Counts the pairs that the rules would give of sources whose frames never move against each other.
+std::size_t countRigidPairs(const SceneParts& parts, const PairRules& rules) {
+  std::map<std::string, BodySet> rigid;  // by what stands for their frames
+  for (std::size_t i = 0; i < parts.sources.size(); ++i)
+    rigid[parts.rigid.rootOf(parts.sources[i].frame)].insert(i);
+  std::size_t count = 0;
+  for (const auto& [root, sources] : rigid) {
+    if (sources.size() < 2) continue;
+    for (const std::size_t source : sources.indices())
+      count += (rules.watchedBefore(source, false) & sources).size();
+  }
+  return count;
+}
+
+}  // namespace
+
+void filterPairs(const SceneParts& parts, Scene& scene) {
+  std::vector<std::pair<std::uint64_t, std::uint64_t>> filtered;
+  for (const auto& [a, b] : filteredPairs(parts)) {
+    filtered.emplace_back(std::minmax(parts.sources[a].serial, parts.sources[b].serial));
+  }
+  std::sort(filtered.begin(), filtered.end());
+  scene.rules.filtered = std::make_shared<const decltype(filtered)>(std::move(filtered));
+}
+
+void noteFilteredPairs(const SceneParts& parts, Scene& scene) {
   std::map<std::string, std::size_t> counts;
-  std::size_t rigid = countRigidPairs(parts, selection);
-  for (const auto& [a, b] : selection.filtered) {
-    if (!selection.rules.of(selection.classes[a], selection.classes[b]).is_watched) continue;
+  std::size_t rigid = countRigidPairs(parts, scene.rules);
+  for (const auto& [a, b] : filteredPairs(parts)) {
+    if (!scene.rules.of(a, b).is_watched) continue;
     const std::string reason = parts.filterReason(a, b);
     const bool is_rigid = parts.rigid.areJoined(parts.sources[a].frame, parts.sources[b].frame);
     if (is_rigid && reason == SceneParts::kDisabledBySrdf) --rigid;
@@ -59,7 +69,7 @@ void noteFilteredPairs(const SceneParts& parts, PairSelection& selection) {
   }
   if (rigid > 0) counts[SceneParts::kRigid] = rigid;
   for (const auto& [reason, count] : counts) {
-    selection.notes.push_back(counted(count, "pair") + " left out: " + reason);
+    scene.notes.push_back(counted(count, "pair") + " left out: " + reason);
   }
 }
 

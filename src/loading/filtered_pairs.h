@@ -1,19 +1,14 @@
 #pragma once
 
-#include <cstddef>
-#include <utility>
-#include <vector>
-
+#include "concave_distance/scene/scene.h"
 #include "scene_parts.h"
-#include "select_pairs.h"
 
 namespace concave_distance::detail {
 
-/// Returns the pairs of sources that adjacency or an SRDF leaves out, the lesser number first.
-std::vector<std::pair<std::size_t, std::size_t>> filteredPairs(const SceneParts& parts);
+/// Leaves out the pairs that adjacency or an SRDF does. The bodies of the scene are the sources.
+void filterPairs(const SceneParts& parts, Scene& scene);
 
 /// Adds a note for each kind of filter with the number of pairs that the rules would give without it.
-/// O(sources x classes).
-void noteFilteredPairs(const SceneParts& parts, PairSelection& selection);
+void noteFilteredPairs(const SceneParts& parts, Scene& scene);
 
 }  // namespace concave_distance::detail

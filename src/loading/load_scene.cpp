@@ -16,6 +16,7 @@
 #include "robot_texts.h"
 #include "saved_operations.h"
 #include "scene/body_pool.h"
+#include "scene/scene_edits.h"
 #include "scene_parts.h"
 #include "scene_spec.h"
 #include "select_pairs.h"
@@ -27,49 +28,17 @@ namespace {
 
 using detail::BuiltBody;
 using detail::DescriptionText;
-using detail::PairSelection;
 using detail::RobotDescription;
 using detail::RobotSpec;
 using detail::SceneDocuments;
 using detail::SceneParts;
 using detail::SceneSpec;
-using detail::SelectedPair;
 
 using LinkPairs = std::vector<std::pair<std::string, std::string>>;
 
 // Enough to see what is missing; a list cut short says so.
 constexpr std::size_t kMostPairsListed = 10;
 constexpr const char* kSemanticDescription = "robot_description_semantic";
-
-// The bodies and pairs before anything is loaded; its bodies have no meshes.
-Scene outlineOf(const SceneParts& parts, const PairSelection& selection, const SceneSpec& spec) {
-  Scene scene;
-  scene.rigid = parts.rigid;
-  scene.defaults = spec.defaults;
-  scene.rules = selection.rules;
-  std::vector<std::pair<std::uint64_t, std::uint64_t>> filtered;
-  for (std::size_t i = 0; i < parts.sources.size(); ++i) {
-    SceneBody body = parts.sources[i];
-    body.pair_class = selection.classes[i];
-    if (selection.labels[i] != body.name) body.label = selection.labels[i];
-    scene.bodies.push_back(std::move(body));
-  }
-  for (const auto& [a, b] : selection.filtered) {
-    filtered.emplace_back(std::minmax(parts.sources[a].serial, parts.sources[b].serial));
-  }
-  std::sort(filtered.begin(), filtered.end());
-  scene.rules.filtered = std::make_shared<const decltype(filtered)>(std::move(filtered));
-  std::set<std::string> taken;
-  for (const SelectedPair& pair : selection.pairs) taken.insert(pair.name);
-  for (const SelectedPair& pair : selection.pairs) {
-    const std::string wanted = selection.labels[pair.source_a] + "/" + selection.labels[pair.source_b];
-    std::string name = pair.name.empty() ? wanted : pair.name;
-    for (int i = 2; pair.name.empty() && !taken.insert(name).second; ++i)
-      name = wanted + "_" + std::to_string(i);
-    scene.pairs.push_back({name, pair.source_a, pair.source_b, pair.enabled, pair.settings});
-  }
-  return scene;
-}
 
 // "a/b, a/c and 3 more": the pairs that go with a body that could not be loaded.
 std::string lostPairs(const Scene& outline, std::size_t body) {
@@ -108,16 +77,14 @@ void noteOpenBodies(Scene& scene) {
       if (isOpen(scene.bodies[body])) noteOpen(scene, scene.bodies[body], "pair '" + pair.name + "' has");
     }
   }
-  std::vector<bool> has_force(scene.rules.classes, false);
-  for (std::size_t row = 0; row < scene.rules.classes; ++row) {
-    for (std::size_t column = 0; column < scene.rules.classes; ++column) {
-      const PairRule& rule = scene.rules.of(row, column);
-      if (!rule.is_watched || !settingsOf(scene, rule).effects.normal_force) continue;
-      has_force[row] = has_force[column] = true;
-    }
+  BodySet with_force;
+  for (std::size_t i = 0; i < scene.rules.list.size(); ++i) {
+    const PairRule& rule = scene.rules.list[i];
+    if (rule.is_watched && settingsOf(scene, rule).effects.normal_force)
+      with_force = with_force | scene.rules.bodiesOf(i);
   }
-  for (const SceneBody& body : scene.bodies) {
-    if (has_force[body.pair_class] && isOpen(body)) noteOpen(scene, body, "its pairs have");
+  for (const std::size_t i : with_force.indices()) {
+    if (isOpen(scene.bodies[i])) noteOpen(scene, scene.bodies[i], "its pairs have");
   }
 }
 
@@ -163,38 +130,34 @@ Scene assemble(const SceneSpec& spec, SceneParts parts, const SceneLoadOptions& 
                 "the limit is " + std::to_string(options.limits.bodies) + " (largest_body_count)");
   }
   // Before the costly part, so that a mistake in the file is reported at once.
-  PairSelection selection = detail::selectPairs(spec, parts, options.limits.pairs);
+  const Scene outline = detail::outlineOf(spec, parts, options.limits.pairs);
   detail::limitImports(parts, options.mesh_import);
   for (detail::BodySource& source : parts.sources) {
     if (source.cloud && !options.clouds) source.problem = "nobody receives it";
   }
-  Scene scene;
-  scene.rigid = parts.rigid;
+  Scene scene = outline;
   scene.pool = options.pool ? options.pool : std::make_shared<BodyPool>(spec.metric_memory_limit);
   scene.limits = options.limits;
   std::vector<BuiltBody> built = detail::buildBodies(
       parts.sources,
       {options.package_locator, options.mesh_search_path, scene.pool, options.limits, options.progress});
   scene.simulation = spec.simulation;
-  scene.defaults = spec.defaults;
-  scene.groups = std::move(selection.groups);
   scene.robots = parts.robots;
   scene.groups_of_robots = groupsOfRobots(scene.groups, spec);
   scene.notes = std::move(parts.notes);
   scene.warnings = std::move(parts.warnings);
   scene.problems = std::move(parts.problems);
-  scene.problems.insert(scene.problems.end(), selection.problems.begin(), selection.problems.end());
-  const Scene outline = outlineOf(parts, selection, spec);
-  scene.rules = outline.rules;
-  std::vector<std::optional<std::size_t>> body_of_source(built.size());
+  scene.problems.insert(scene.problems.end(), outline.problems.begin(), outline.problems.end());
+  std::vector<bool> is_lost(built.size(), false);
   for (std::size_t i = 0; i < built.size(); ++i) {
     for (const std::string& note : built[i].notes) scene.notes.push_back(parts.sources[i].name + ": " + note);
     if (built[i].body) {
-      body_of_source[i] = scene.bodies.size();
       built[i].body->label = outline.bodies[i].label;
-      built[i].body->pair_class = outline.bodies[i].pair_class;
-      scene.bodies.push_back(std::move(*built[i].body));
-    } else if (parts.sources[i].cloud && !options.clouds) {
+      scene.bodies.edit(i) = std::move(*built[i].body);
+      continue;
+    }
+    is_lost[i] = true;
+    if (parts.sources[i].cloud && !options.clouds) {
       scene.warnings.push_back("cloud '" + parts.sources[i].name +
                                "' is left out, because only the node receives clouds");
     } else {
@@ -203,13 +166,9 @@ Scene assemble(const SceneSpec& spec, SceneParts parts, const SceneLoadOptions& 
                                                              lostPairs(outline, i)});
     }
   }
-  for (const ScenePair& pair : outline.pairs) {
-    const std::optional<std::size_t> a = body_of_source[pair.body_a];
-    const std::optional<std::size_t> b = body_of_source[pair.body_b];
-    if (a && b) scene.pairs.push_back({pair.name, *a, *b, pair.enabled, pair.settings});
-  }
+  takeOutBodies(scene, is_lost);
   noteOpenBodies(scene);
-  scene.notes.insert(scene.notes.end(), selection.notes.begin(), selection.notes.end());
+  scene.notes.insert(scene.notes.end(), outline.notes.begin(), outline.notes.end());
   return scene;
 }
 

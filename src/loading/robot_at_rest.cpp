@@ -150,20 +150,15 @@ std::vector<PairSettings*> settingsByRule(Scene& scene) {
 }
 
 bool watchesWithoutCutoff(const Scene& scene) {
-  for (std::size_t row = 0; row < scene.rules.classes; ++row) {
-    for (std::size_t column = 0; column < scene.rules.classes; ++column) {
-      const PairRule& rule = scene.rules.of(row, column);
-      if (rule.is_watched && rule.is_enabled && !std::isfinite(settingsOf(scene, rule).tracker.cutoff))
-        return true;
-    }
-  }
-  return false;
+  return std::any_of(scene.rules.list.begin(), scene.rules.list.end(), [&](const PairRule& rule) {
+    return rule.is_watched && rule.is_enabled && !std::isfinite(settingsOf(scene, rule).tracker.cutoff);
+  });
 }
 
 }  // namespace
 
 void limitManyPairs(Scene& scene) {
-  const std::size_t pairs = watchesWithoutCutoff(scene) ? countRuledPairs(scene) : 0;
+  const std::size_t pairs = watchesWithoutCutoff(scene) ? countPairsByRule(scene) : 0;
   if (pairs <= kFewPairs) return;
   double diagonal = largestDiagonal(scene);
   for (const SceneBody& body : scene.bodies) diagonal = std::max(diagonal, body.mesh->diameter());

@@ -43,19 +43,11 @@ Eigen::Isometry3d poseIn(const std::string& frame, const SceneBody& body, const 
   return relation->target_from_source * body.frame_from_body;
 }
 
-std::optional<std::size_t> findBySerial(const Scene& scene, std::uint64_t serial) {
-  for (std::size_t i = 0; serial != 0 && i < scene.bodies.size(); ++i) {
-    if (scene.bodies[i].serial == serial) return i;
-  }
-  return std::nullopt;
-}
-
 bool isAsItsRule(const Scene& scene, const ScenePair& pair) {
   const auto [earlier, later] = std::minmax(pair.body_a, pair.body_b);
-  const PairRule& rule = scene.rules.of(scene.bodies[earlier].pair_class, scene.bodies[later].pair_class);
-  const std::shared_ptr<const AddedBodyRule>& added = scene.bodies[later].added_rule;
-  return pair.is_from_rule && (rule.is_watched || (added && added->watches(scene.bodies[earlier].serial))) &&
-         pair.enabled == rule.is_enabled && haveEqualSettings(pair.settings, settingsOf(scene, rule));
+  const PairRule& rule = scene.rules.of(earlier, later);
+  return pair.is_from_rule && rule.is_watched && pair.enabled == rule.is_enabled &&
+         haveEqualSettings(pair.settings, settingsOf(scene, rule));
 }
 
 // Pairs that are listed for their topics alone and are as their rule has them follow it again when nothing
@@ -93,7 +85,7 @@ void requireNoCycle(const Scene& scene, std::size_t body, std::size_t parent) {
   if (body == parent)
     throw Error(whereOf(name), "it would be attached to itself", "name another body or frame");
   for (std::optional<std::size_t> at = parent; at && scene.bodies[*at].attachment;) {
-    at = findBySerial(scene, scene.bodies[*at].attachment->parent_serial);
+    at = scene.findBody(scene.bodies[*at].attachment->parent_serial);
     if (at == body) {
       throw Error(
           whereOf(name),

@@ -44,8 +44,9 @@ void BodyPreparation::add(const BodyMesh& a, const BodyMesh& b, const TrackerPar
 }
 
 void BodyPreparation::addAhead(const Scene& scene) {
-  for (const SceneBody& body : scene.bodies) {
-    if (!mayBeNear(body) || !body.mesh) continue;
+  for (const std::size_t i : scene.rules.allBodies().indices()) {
+    const SceneBody& body = scene.bodies[i];
+    if (!body.mesh) continue;
     const std::size_t place = placeOf(*body.mesh);
     ahead_.push_back({place, place, scene.defaults.pairs.tracker});
   }

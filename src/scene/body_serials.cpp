@@ -46,10 +46,6 @@ void renumber(Scene& scene, const Serials& serials) {
       attachment.may_touch = renumbered(serials, attachment.may_touch);
       body.attachment = std::make_shared<const Attachment>(std::move(attachment));
     }
-    if (body.added_rule) {
-      body.added_rule = std::make_shared<const AddedBodyRule>(
-          AddedBodyRule{body.added_rule->all, renumbered(serials, body.added_rule->bodies)});
-    }
   }
   if (scene.rules.filtered)
     scene.rules.filtered = std::make_shared<const SerialPairs>(renumbered(serials, *scene.rules.filtered));

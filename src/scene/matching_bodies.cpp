@@ -55,11 +55,10 @@ std::vector<bool> standingFor(const Scene& scene, const std::string& group) {
   return stands;
 }
 
-// All pairs less those of two bodies that stand for the group and those of two that do not.
 std::size_t countFacing(const Scene& scene, const std::vector<bool>& stands) {
-  std::vector<bool> others = stands;
-  others.flip();
-  return countRuledPairs(scene) - countRuledPairs(scene, stands) - countRuledPairs(scene, others);
+  const BodySet inside = BodySet::marked(stands);
+  const BodySet outside = BodySet::before(stands.size()) - inside;
+  return countPairsByRule(scene, {{inside, outside}, {outside, inside}});
 }
 
 }  // namespace concave_distance::detail

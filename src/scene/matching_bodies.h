@@ -26,7 +26,6 @@ MatchingBodies matchingBodies(const Scene& scene, const std::string& text, const
 /// a frame that moves with a robot's link among them.
 std::vector<bool> standingFor(const Scene& scene, const std::string& group);
 /// Counts the enabled pairs by rule of which one body stands for the group and the other does not.
-/// O(bodies x classes).
 std::size_t countFacing(const Scene& scene, const std::vector<bool>& stands);
 
 }  // namespace concave_distance::detail

@@ -157,9 +157,7 @@ void NearPairs::admitUnknown(std::uint64_t largest_id) {
     entry.is_by_unknown = unknown_[placeOf(entry.slots.a)] || unknown_[placeOf(entry.slots.b)];
     admitted += entry.is_by_unknown ? 1 : 0;
   }
-  bool is_any = false;
   for (std::size_t i = 0; i < unknown_.size(); ++i) {
-    is_any = is_any || unknown_[i];
     for (std::size_t j = 0; unknown_[i] && j < unknown_.size() && admitted < kMostUnknown; ++j) {
       if (now_.bodies[j].half_reach < 0.0 || j == i) continue;
       const std::size_t before = entries_.size();
@@ -167,7 +165,13 @@ void NearPairs::admitUnknown(std::uint64_t largest_id) {
       admitted += entries_.size() - before;
     }
   }
-  missing_ = is_any ? now_.ruled - countRuledPairs(now_.scene, unknown_) - admitted : 0;
+  const BodySet unknown = BodySet::marked(unknown_);
+  const BodySet known = BodySet::before(unknown_.size()) - unknown;
+  missing_ = 0;
+  if (!unknown.empty()) {
+    const BodySet all = unknown | known;
+    missing_ = countPairsByRule(now_.scene, {{unknown, all}, {known, unknown}}) - admitted;
+  }
   unknown_before_ = unknown_;
 }
 

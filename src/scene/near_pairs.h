@@ -20,11 +20,6 @@ inline bool isSameBody(const SceneBody& l, const SceneBody& r) {
   return l.serial == r.serial && l.mesh == r.mesh;
 }
 
-/// Returns whether rules watch it, so that it may come near others.
-inline bool mayBeNear(const SceneBody& body) {
-  return body.pair_class != 0 || body.added_rule;
-}
-
 /// Holds a tracker for each pair that the rules of a scene watch and whose bodies are near each other: their
 /// boxes, each widened by half of the largest cutoff or warning distance that the body has, overlap. The rule
 /// of a pair is asked when it comes near. One that has left rests for a while and comes back with its niches

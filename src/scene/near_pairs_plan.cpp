@@ -13,17 +13,15 @@ double reachOf(const PairSettings& settings) {
   return std::max(settings.tracker.cutoff, warned);
 }
 
-// The largest reach of a pair of each class; below 0: none.
-std::vector<double> reachesOf(const Scene& scene, bool has_added) {
-  std::vector<double> reaches(scene.rules.classes, -1.0);
-  for (std::size_t row = 0; row < scene.rules.classes; ++row) {
-    for (std::size_t column = 0; column < scene.rules.classes; ++column) {
-      const PairRule& rule = scene.rules.of(row, column);
-      if (!rule.is_enabled || !(rule.is_watched || has_added)) continue;
-      const double reach = reachOf(settingsOf(scene, rule));
-      reaches[row] = std::max(reaches[row], reach);
-      reaches[column] = std::max(reaches[column], reach);
-    }
+// The largest reach of a pair of each body; below 0: none.
+std::vector<double> reachesOf(const Scene& scene) {
+  std::vector<double> reaches(scene.bodies.size(), -1.0);
+  for (std::size_t i = 0; i < scene.rules.list.size(); ++i) {
+    const PairRule& rule = scene.rules.list[i];
+    if (!rule.is_enabled || !rule.is_watched) continue;
+    const double reach = reachOf(settingsOf(scene, rule));
+    for (const std::size_t body : scene.rules.bodiesOf(i).indices())
+      reaches[body] = std::max(reaches[body], reach);
   }
   return reaches;
 }
@@ -60,12 +58,8 @@ NearPairs::Plan NearPairs::plan(const Scene& scene, bool settings_changed) const
   next.freed_slots = now_.freed_slots;
   next.slot_count = now_.slot_count;
   std::unordered_map<std::uint64_t, std::size_t> places;
-  bool has_added = false;
-  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-    places.emplace(scene.bodies[i].serial, i);
-    has_added = has_added || scene.bodies[i].added_rule;
-  }
-  const std::vector<double> reaches = reachesOf(scene, has_added);
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) places.emplace(scene.bodies[i].serial, i);
+  const std::vector<double> reaches = reachesOf(scene);
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     const std::shared_ptr<const SceneBody> body = scene.bodies.share(i);
     const auto known = now_.slot_of.find(body->serial);
@@ -79,7 +73,7 @@ NearPairs::Plan NearPairs::plan(const Scene& scene, bool settings_changed) const
       slot = next.slot_count++;
     }
     next.slot_of.emplace(body->serial, slot);
-    const double reach = reaches[body->pair_class];
+    const double reach = reaches[i];
     next.has_rules = next.has_rules || reach >= 0.0;
     next.bodies.push_back({body, slot, reach < 0.0 ? reach : 0.5 * reach});
   }
@@ -92,7 +86,7 @@ NearPairs::Plan NearPairs::plan(const Scene& scene, bool settings_changed) const
   };
   for (const std::shared_ptr<TrackedPair>& pair : pairs_) next.pairs.push_back(in_next(*pair));
   for (const Resting& resting : resting_) next.resting.push_back(in_next(*resting.pair));
-  next.ruled = next.has_rules ? countRuledPairs(scene) : 0;
+  if (next.has_rules) next.ruled = countPairsByRule(scene);
   return next;
 }
 

@@ -97,8 +97,9 @@ void NichePreparation::addAhead(const Scene& scene, const std::vector<std::share
     // Which of the others will be near is not known: each mesh once, as if against itself.
     const TrackerParameters& parameters = scene.defaults.pairs.tracker;
     if (!provesDistance(parameters.accuracy)) return;
-    for (const SceneBody& body : scene.bodies) {
-      if (mayBeNear(body) && detail::hasNiches(body)) addAhead(body.mesh, parameters);
+    for (const std::size_t i : scene.rules.allBodies().indices()) {
+      const SceneBody& body = scene.bodies[i];
+      if (detail::hasNiches(body)) addAhead(body.mesh, parameters);
     }
   } catch (const std::bad_alloc&) {
     // The scene is tracked already; a cycle that wants the niches tries again.

@@ -9,25 +9,16 @@
 namespace concave_distance {
 namespace {
 
-// Leaves out bodies that do not move relative to a new one's frame, and reports those of other frames.
+// Reports bodies of other frames that do not move relative to a new one's.
 class MovingBodies {
  public:
   MovingBodies(const Scene& scene, const std::string& frame, const PairPartners& partners, AddedPairs& added)
       : scene_(scene), frame_(frame), partners_(partners), added_(added) {}
 
-  bool holds(std::size_t index) {
+  void look(std::size_t index) {
     const SceneBody& other = scene_.bodies[index];
-    if (other.carrier != 0) {
-      return true;
-    }
-    if (other.frame == frame_) {
-      return false;
-    }
-    if (isRigid(other.frame)) {
+    if (other.carrier == 0 && other.frame != frame_ && isRigid(other.frame))
       added_.rigid_neighbours.push_back(other.name);
-      return false;
-    }
-    return true;
   }
 
   std::vector<std::string> found_by_asking;  ///< frames
@@ -74,8 +65,8 @@ Partners partnersNamed(const Scene& scene, const SceneBody& body, const PairPart
     if (bodies.empty()) added.unknown.push_back(name);
     for (const std::size_t index : bodies) {
       if (!seen.insert(index).second) continue;
-      moving.holds(index);
-      found.rule.bodies.insert(scene.bodies[index].serial);  // ruleOf() leaves it out while it does not move
+      moving.look(index);
+      found.by_rule.insert(index);  // ruleOf() leaves it out while it does not move
     }
   }
   found.rigid_frames = std::move(moving.found_by_asking);
@@ -85,7 +76,6 @@ Partners partnersNamed(const Scene& scene, const SceneBody& body, const PairPart
 Partners partnersThatMove(const Scene& scene, const SceneBody& body, const PairPartners& partners,
                           AddedPairs& added) {
   Partners found;
-  found.rule.all = true;
   std::unordered_set<std::size_t> touched;
   for (const std::string& name : partners.may_touch) {
     const std::vector<std::size_t> bodies = detail::findMatchingBodies(scene, name).bodies;
@@ -96,11 +86,9 @@ Partners partnersThatMove(const Scene& scene, const SceneBody& body, const PairP
   }
   MovingBodies moving(scene, body.frame, partners, added);
   for (std::size_t index = 0; index < scene.bodies.size(); ++index) {
-    if (touched.count(index) != 0) {
-      found.rule.bodies.insert(scene.bodies[index].serial);
-    } else {
-      moving.holds(index);
-    }
+    if (touched.count(index) != 0) continue;
+    moving.look(index);
+    found.by_rule.insert(index);
   }
   found.rigid_frames = std::move(moving.found_by_asking);
   return found;

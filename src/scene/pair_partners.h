@@ -30,7 +30,7 @@ struct AddedPairs {
 /// The partners of a new body.
 struct Partners {
   std::vector<std::size_t> named;         ///< by themselves
-  AddedBodyRule rule;                     ///< for all others
+  BodySet by_rule;                        ///< all others, also those that do not move
   std::vector<std::string> rigid_frames;  ///< of PairPartners::is_rigid, unknown to the scene so far
 };
 

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <atomic>
-#include <map>
 #include <string>
 #include <tuple>
 #include <unordered_map>
 
+#include "base/free_name.h"
 #include "concave_distance/scene/scene.h"
 
 namespace concave_distance {
@@ -18,24 +18,9 @@ bool isFiltered(const PairRules& rules, std::uint64_t serial_a, std::uint64_t se
                             std::pair<std::uint64_t, std::uint64_t>(std::minmax(serial_a, serial_b)));
 }
 
-// Without filters.
-bool isWatched(const Scene& scene, std::size_t earlier, std::size_t later) {
-  const SceneBody& a = scene.bodies[earlier];
-  const SceneBody& b = scene.bodies[later];
-  return scene.rules.of(a.pair_class, b.pair_class).is_watched ||
-         (b.added_rule && b.added_rule->watches(a.serial));
-}
-
 bool mayTouch(const SceneBody& a, const SceneBody& b) {
   return (a.attachment && a.attachment->may_touch.count(b.serial) != 0) ||
          (b.attachment && b.attachment->may_touch.count(a.serial) != 0);
-}
-
-std::string nameOf(const Scene& scene, std::size_t body_a, std::size_t body_b) {
-  const std::string wanted = scene.bodies[body_a].pairLabel() + "/" + scene.bodies[body_b].pairLabel();
-  std::string name = wanted;
-  for (int copy = 2; scene.pairs.find(name); ++copy) name = wanted + "_" + std::to_string(copy);
-  return name;
 }
 
 // Labels of bodies that have another name are rare.
@@ -48,23 +33,55 @@ std::optional<std::size_t> findLabel(const Scene& scene, const std::string& labe
   return std::nullopt;
 }
 
-/// Counts bodies of each class, in all and in each set of frames that never move against each other.
-class EarlierBodies {
- public:
-  EarlierBodies(const Scene& scene) : in_all_(scene.rules.classes, 0) {}
-  void add(std::uint32_t pair_class, std::size_t rigid_set) {
-    ++in_all_[pair_class];
-    ++in_set_[{rigid_set, pair_class}];
+// Returns for each body those that never move against it, with itself; nullptr where there is no other.
+std::vector<std::shared_ptr<const BodySet>> rigidBodiesOf(const Scene& scene) {
+  std::unordered_map<std::string, std::vector<std::size_t>> bodies_of_root;
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    const SceneBody& body = scene.bodies[i];
+    const bool is_carried = body.carrier != 0;
+    bodies_of_root[is_carried ? "\n" + std::to_string(body.carrier) : scene.rigid.rootOf(body.frame)]
+        .push_back(i);
   }
-  std::size_t thatMoveAgainst(std::size_t pair_class, std::size_t rigid_set) const {
-    const auto found = in_set_.find({rigid_set, pair_class});
-    return in_all_[pair_class] - (found == in_set_.end() ? 0 : found->second);
+  std::vector<std::shared_ptr<const BodySet>> rigid(scene.bodies.size());
+  for (const auto& [root, bodies] : bodies_of_root) {
+    if (bodies.size() < 2) continue;
+    const auto set = std::make_shared<const BodySet>(bodies);
+    for (const std::size_t body : bodies) rigid[body] = set;
   }
+  return rigid;
+}
 
- private:
-  std::vector<std::size_t> in_all_;
-  std::map<std::pair<std::size_t, std::size_t>, std::size_t> in_set_;
-};
+// Returns whether the pair is left out or listed, whatever its rule says.
+bool isException(const Scene& scene, std::size_t earlier, std::size_t later) {
+  const SceneBody& a = scene.bodies[earlier];
+  const SceneBody& b = scene.bodies[later];
+  return isFiltered(scene.rules, a.serial, b.serial) || mayTouch(a, b) || scene.pairs.find(earlier, later);
+}
+
+// Returns the pairs of which isException() is true, the later body first, each once.
+std::vector<std::pair<std::size_t, std::size_t>> exceptionsOf(const Scene& scene) {
+  std::vector<std::pair<std::size_t, std::size_t>> exceptions;
+  for (const ScenePair& pair : scene.pairs)
+    exceptions.emplace_back(std::max(pair.body_a, pair.body_b), std::min(pair.body_a, pair.body_b));
+  std::unordered_map<std::uint64_t, std::size_t> index;  // by serial
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) index.emplace(scene.bodies[i].serial, i);
+  const auto add = [&](std::uint64_t serial_a, std::uint64_t serial_b) {
+    const auto a = index.find(serial_a);
+    const auto b = index.find(serial_b);
+    if (a == index.end() || b == index.end()) return;
+    exceptions.emplace_back(std::max(a->second, b->second), std::min(a->second, b->second));
+  };
+  if (scene.rules.filtered) {
+    for (const auto& [a, b] : *scene.rules.filtered) add(a, b);
+  }
+  for (const SceneBody& body : scene.bodies) {
+    if (!body.attachment) continue;
+    for (const std::uint64_t other : body.attachment->may_touch) add(body.serial, other);
+  }
+  std::sort(exceptions.begin(), exceptions.end());
+  exceptions.erase(std::unique(exceptions.begin(), exceptions.end()), exceptions.end());
+  return exceptions;
+}
 
 }  // namespace
 
@@ -78,32 +95,69 @@ bool areRigid(const Scene& scene, const SceneBody& a, const SceneBody& b) {
          (a.carrier != 0 || a.frame == b.frame || scene.rigid.areJoined(a.frame, b.frame));
 }
 
+const PairRule& PairRules::of(std::size_t earlier, std::size_t later) const {
+  static const PairRule none;
+  const auto last = std::find_if(list.rbegin(), list.rend(),
+                                 [&](const PairRule& rule) { return rule.holds(earlier, later); });
+  return last == list.rend() ? none : *last;
+}
+
+// As of() for all pairs of a body with earlier ones at once.
+BodySet PairRules::watchedBefore(std::size_t body, bool only_enabled) const {
+  BodySet watched;
+  for (const PairRule& rule : list) {
+    if (!rule.later.contains(body)) continue;
+    if (rule.is_watched && (rule.is_enabled || !only_enabled)) {
+      watched |= rule.earlier;
+    } else {
+      watched -= rule.earlier;
+    }
+  }
+  watched.keepBefore(body);
+  return watched;
+}
+
+// Less those of which each pair has a later rule.
+BodySet PairRules::bodiesOf(std::size_t rule) const {
+  BodySet earlier = list[rule].earlier;
+  BodySet later = list[rule].later;
+  for (std::size_t i = rule + 1; i < list.size(); ++i) {
+    if (list[rule].later.isWithin(list[i].later)) earlier -= list[i].earlier;
+    if (list[rule].earlier.isWithin(list[i].earlier)) later -= list[i].later;
+  }
+  return earlier | later;
+}
+
+BodySet PairRules::allBodies() const {
+  BodySet bodies;
+  for (const PairRule& rule : list) (bodies |= rule.earlier) |= rule.later;
+  return bodies;
+}
+
 const PairRule* ruleOf(const Scene& scene, std::size_t body_a, std::size_t body_b) {
   const auto [earlier, later] = std::minmax(body_a, body_b);
-  if (earlier == later || !isWatched(scene, earlier, later)) return nullptr;
-  const SceneBody& a = scene.bodies[earlier];
-  const SceneBody& b = scene.bodies[later];
-  if (isFiltered(scene.rules, a.serial, b.serial) || mayTouch(a, b) || scene.pairs.find(earlier, later) ||
-      areRigid(scene, a, b)) {
-    return nullptr;
-  }
-  return &scene.rules.of(a.pair_class, b.pair_class);
+  if (earlier == later) return nullptr;
+  const PairRule& rule = scene.rules.of(earlier, later);
+  const bool is_left_out = !rule.is_watched || isException(scene, earlier, later) ||
+                           areRigid(scene, scene.bodies[earlier], scene.bodies[later]);
+  return is_left_out ? nullptr : &rule;
 }
 
 const PairSettings& settingsOf(const Scene& scene, const PairRule& rule) {
   return rule.settings == 0 ? scene.defaults.pairs : scene.rules.settings[rule.settings];
 }
 
+std::string freePairName(const Scene& scene, std::size_t body_a, std::size_t body_b) {
+  return freeName(scene.bodies[body_a].pairLabel() + "/" + scene.bodies[body_b].pairLabel(),
+                  [&](const std::string& name) { return scene.pairs.find(name).has_value(); });
+}
+
 std::optional<ScenePair> ruledPair(const Scene& scene, std::size_t body_a, std::size_t body_b) {
   const PairRule* rule = ruleOf(scene, body_a, body_b);
   if (rule == nullptr) return std::nullopt;
   ScenePair pair;
-  std::tie(pair.body_a, pair.body_b) = std::minmax(body_a, body_b);
-  const std::shared_ptr<const AddedBodyRule>& added = scene.bodies[pair.body_b].added_rule;
-  const bool is_turned =
-      added && added->watches(scene.bodies[pair.body_a].serial) ? true : rule->order == PairOrder::Later;
-  if (is_turned) std::swap(pair.body_a, pair.body_b);
-  pair.name = nameOf(scene, pair.body_a, pair.body_b);
+  std::tie(pair.body_a, pair.body_b) = rule->ordered(body_a, body_b);
+  pair.name = freePairName(scene, pair.body_a, pair.body_b);
   pair.enabled = rule->is_enabled;
   pair.settings = settingsOf(scene, *rule);
   pair.is_from_rule = true;
@@ -144,78 +198,37 @@ PairList allPairs(const Scene& scene, std::size_t most) {
   const std::size_t count = scene.bodies.size();
   for (std::size_t i = 0; i < count; ++i) {
     for (std::size_t j = i + 1; j < count && pairs.size() < most; ++j) {
-      if (!scene.bodies[j].added_rule) add(i, j);
+      if (!scene.bodies[j].is_added) add(i, j);
     }
   }
   for (std::size_t j = 0; j < count; ++j) {
-    for (std::size_t i = 0; i < j && scene.bodies[j].added_rule; ++i) add(i, j);
+    for (std::size_t i = 0; i < j && scene.bodies[j].is_added; ++i) add(i, j);
   }
   return pairs;
 }
 
-std::size_t countRuledPairs(const Scene& scene, const std::vector<bool>& left_out) {
-  const PairRules& rules = scene.rules;
-  const auto counts = [&](std::size_t body) { return left_out.empty() || !left_out[body]; };
-  std::unordered_map<std::string, std::size_t> set_of_root;
-  std::vector<std::size_t> rigid_set;
-  std::unordered_map<std::uint64_t, std::size_t> place;  // by serial
-  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-    const SceneBody& body = scene.bodies[i];
-    const std::string root =
-        body.carrier == 0 ? scene.rigid.rootOf(body.frame) : "\n" + std::to_string(body.carrier);
-    rigid_set.push_back(set_of_root.emplace(root, set_of_root.size()).first->second);
-    place.emplace(scene.bodies[i].serial, i);
-  }
-  const auto is_counted = [&](std::size_t i, std::size_t j) {  // by the classes alone
-    return i != j && counts(i) && counts(j) && rigid_set[i] != rigid_set[j] &&
-           isWatched(scene, std::min(i, j), std::max(i, j)) &&
-           rules.of(scene.bodies[std::min(i, j)].pair_class, scene.bodies[std::max(i, j)].pair_class)
-               .is_enabled;
-  };
+std::size_t countPairsByRule(const Scene& scene) {
+  const BodySet all = BodySet::before(scene.bodies.size());
+  return countPairsByRule(scene, {{all, all}});
+}
+
+std::size_t countPairsByRule(const Scene& scene, const std::vector<std::pair<BodySet, BodySet>>& sides) {
+  const auto rigid_bodies = rigidBodiesOf(scene);
+  const auto exceptions = exceptionsOf(scene);
   std::size_t count = 0;
-  std::size_t too_many = 0;
-  EarlierBodies earlier(scene);
-  for (std::size_t j = 0; j < scene.bodies.size(); ++j) {
-    if (!counts(j)) continue;
-    const SceneBody& body = scene.bodies[j];
-    const bool all = body.added_rule && body.added_rule->all;
-    for (std::size_t row = 0; row < rules.classes; ++row) {
-      const PairRule& rule = rules.of(row, body.pair_class);
-      if (rule.is_enabled && (rule.is_watched || all)) count += earlier.thatMoveAgainst(row, rigid_set[j]);
-    }
-    if (body.added_rule) {
-      for (const std::uint64_t serial : body.added_rule->bodies) {
-        const auto other = place.find(serial);
-        if (other == place.end() || other->second >= j || !counts(other->second)) continue;
-        const PairRule& rule = rules.of(scene.bodies[other->second].pair_class, body.pair_class);
-        if (rule.is_watched || !rule.is_enabled || rigid_set[other->second] == rigid_set[j]) continue;
-        ++(all ? too_many : count);
-      }
-    }
-    earlier.add(body.pair_class, rigid_set[j]);
-  }
-  if (rules.filtered) {
-    for (const auto& [serial_a, serial_b] : *rules.filtered) {
-      const auto a = place.find(serial_a);
-      const auto b = place.find(serial_b);
-      if (a == place.end() || b == place.end()) continue;
-      if (is_counted(a->second, b->second) && !scene.pairs.find(a->second, b->second)) ++too_many;
+  for (const auto& [earlier, later] : sides) {
+    for (const std::size_t body : later.indices()) {
+      BodySet others = scene.rules.watchedBefore(body, true);
+      others &= earlier;
+      if (rigid_bodies[body]) others -= *rigid_bodies[body];
+      count += others.size();
+      auto exception =
+          std::lower_bound(exceptions.begin(), exceptions.end(), std::pair(body, std::size_t{0}));
+      for (; exception != exceptions.end() && exception->first == body; ++exception)
+        count -= others.contains(exception->second) ? 1 : 0;
     }
   }
-  for (const ScenePair& pair : scene.pairs) too_many += is_counted(pair.body_a, pair.body_b) ? 1 : 0;
-  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-    const SceneBody& body = scene.bodies[i];
-    if (!body.attachment) continue;
-    for (const std::uint64_t serial : body.attachment->may_touch) {
-      const auto at = place.find(serial);
-      if (at == place.end() || !is_counted(i, at->second) || scene.pairs.find(i, at->second)) continue;
-      const SceneBody& other = scene.bodies[at->second];
-      const bool is_met_twice =
-          other.attachment && other.attachment->may_touch.count(body.serial) != 0 && at->second < i;
-      if (!is_met_twice && !isFiltered(rules, body.serial, serial)) ++too_many;
-    }
-  }
-  return count - too_many;
+  return count;
 }
 
 }  // namespace concave_distance

@@ -3,62 +3,145 @@
 #include <algorithm>
 #include <array>
 #include <map>
-#include <tuple>
 #include <utility>
 
 #include "concave_distance/base/error.h"
 #include "equal_settings.h"
 #include "name_pattern.h"
 #include "pair_parameters.h"
+#include "search/genetic_parameter_table.h"
 
 namespace concave_distance::detail {
 namespace {
 
-/// What the bodies of one new class have in common.
-struct ClassKey {
-  std::uint32_t before = 0;
-  bool on_a = false;
-  bool on_b = false;
-  bool is_link = false;
-  bool operator<(const ClassKey& r) const {
-    return std::tie(before, on_a, on_b, is_link) < std::tie(r.before, r.on_a, r.on_b, r.is_link);
-  }
-};
-
-/// Builds the settings of new rules from those of the rules before, each once.
-class NewSettings {
- public:
-  explicit NewSettings(const Scene& scene) : scene_(scene), made_(1) {}
-  void keep(PairRule& rule) {
-    if (rule.settings == 0) return;
-    const auto [place, is_new] = kept_.emplace(rule.settings, made_.size());
-    if (is_new) made_.push_back(settingsOf(scene_, rule));
-    rule.settings = static_cast<std::uint32_t>(place->second);
-  }
-  void change(PairRule& rule, const RuledBodies& bodies, const RuleChange& change) {
-    const auto [place, is_new] = changed_.emplace(rule.settings, made_.size());
-    PairSettings settings = settingsOf(scene_, rule);
-    change(rule, settings, bodies);
-    if (is_new) made_.push_back(settings);
-    rule.settings = static_cast<std::uint32_t>(place->second);
-  }
-  std::vector<PairSettings> take() { return std::move(made_); }
-
- private:
-  const Scene& scene_;
-  std::vector<PairSettings> made_;
-  std::map<std::uint32_t, std::size_t> kept_;
-  std::map<std::uint32_t, std::size_t> changed_;
-};
-
-BodySide sideOf(const Scene& scene, const std::string& pattern) {
-  BodySide side;
-  for (const SceneBody& body : scene.bodies) side.push_back(matchesPattern(pattern, body.pairLabel()));
-  return side;
+bool hasPairs(const PairRule& rule) {
+  return !rule.earlier.empty() && !rule.later.empty() && rule.earlier.first() < rule.later.last();
 }
 
-bool isEmpty(const BodySide& side) {
-  return std::find(side.begin(), side.end(), true) == side.end();
+// Returns whether one of the rules from `next` on holds all pairs of a rule, so that it decides none.
+bool isHidden(const PairRule& rule, const std::vector<PairRule>& list, std::size_t next) {
+  for (std::size_t i = next; i < list.size(); ++i) {
+    if (rule.earlier.isWithin(list[i].earlier) && rule.later.isWithin(list[i].later)) return true;
+  }
+  return false;
+}
+
+bool sayTheSame(const PairRule& l, const PairRule& r) {
+  return l.is_watched == r.is_watched && l.is_enabled == r.is_enabled && l.order == r.order;
+}
+
+// Joins a rule with the one before it if one can say both.
+bool joinRules(PairRule& before, const PairRule& rule) {
+  if (!sayTheSame(before, rule) || before.settings != rule.settings) return false;
+  if (before.later == rule.later) {
+    before.earlier |= rule.earlier;
+  } else if (before.earlier == rule.earlier) {
+    before.later |= rule.later;
+  } else {
+    return false;
+  }
+  return true;
+}
+
+// Takes out rules that decide no pair, and settings that no rule gives.
+void tidy(PairRules& rules) {
+  std::vector<PairRule> list;
+  for (std::size_t i = 0; i < rules.list.size(); ++i) {
+    PairRule& rule = rules.list[i];
+    if (!hasPairs(rule) || isHidden(rule, rules.list, i + 1)) continue;
+    if (list.empty() || !joinRules(list.back(), rule)) list.push_back(std::move(rule));
+  }
+  std::vector<PairSettings> settings(1);
+  std::map<std::uint32_t, std::uint32_t> kept{{0, 0}};
+  for (PairRule& rule : list) {
+    const auto [place, is_new] = kept.emplace(rule.settings, static_cast<std::uint32_t>(settings.size()));
+    if (is_new) settings.push_back(std::move(rules.settings[rule.settings]));
+    rule.settings = place->second;
+  }
+  rules.list = std::move(list);
+  rules.settings = std::move(settings);
+}
+
+/// Changes each rule for some of its pairs.
+class RuleParts {
+ public:
+  RuleParts(Scene& scene, const BodySet& earlier, const BodySet& later, PairOrder order,
+            const RuleChange& change)
+      : scene_(scene), earlier_(earlier), later_(later), order_(order), change_(change) {
+    if (scene.rules.settings.empty()) scene.rules.settings.emplace_back();
+  }
+
+  // The changed part of a rule comes right behind it, so that it has its place among the others.
+  void run() {
+    const BodySet all = BodySet::before(scene_.bodies.size());
+    PairRule none;
+    none.earlier = none.later = all;
+    addPart(none, 0);
+    const std::vector<PairRule>& list = scene_.rules.list;
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      const bool is_whole = list[i].earlier.isWithin(earlier_) && list[i].later.isWithin(later_);
+      if (!is_whole) next_.push_back(list[i]);
+      addPart(list[i], i + 1);
+    }
+    scene_.rules.list = std::move(next_);
+    tidy(scene_.rules);
+  }
+
+ private:
+  void addPart(const PairRule& rule, std::size_t next) {
+    PairRule part = rule;
+    part.earlier = rule.earlier & earlier_;
+    part.later = rule.later & later_;
+    if (!hasPairs(part) || isHidden(part, scene_.rules.list, next)) return;
+    PairSettings settings = settingsOf(scene_, rule);
+    change_(part, settings, order_);
+    if (!haveEqualSettings(settings, settingsOf(scene_, rule))) {
+      std::vector<PairSettings>& all = scene_.rules.settings;
+      const auto [place, is_new] = changed_.emplace(rule.settings, static_cast<std::uint32_t>(all.size()));
+      if (is_new) all.push_back(std::move(settings));
+      part.settings = place->second;
+    }
+    next_.push_back(std::move(part));
+  }
+
+  Scene& scene_;
+  const BodySet& earlier_;
+  const BodySet& later_;
+  PairOrder order_;
+  const RuleChange& change_;
+  std::vector<PairRule> next_;
+  std::map<std::uint32_t, std::uint32_t> changed_;  ///< settings of parts, by those of their rules
+};
+
+// Lets a new body have this rule, as one that says the same of bodies before it, where there is one.
+void addRule(Scene& scene, std::size_t body, PairRule rule, const PairSettings& settings) {
+  if (rule.earlier.empty()) return;
+  const bool are_defaults = haveEqualSettings(settings, scene.defaults.pairs);
+  for (PairRule& before : scene.rules.list) {
+    const BodySet more = rule.earlier - before.earlier;
+    const bool fits = sayTheSame(before, rule) && (before.settings == 0) == are_defaults &&
+                      before.earlier.isWithin(rule.earlier) &&
+                      (more.empty() || more.first() >= before.later.last());
+    if (!fits || !(are_defaults || haveEqualSettings(settingsOf(scene, before), settings))) continue;
+    before.earlier |= rule.earlier;
+    before.later.insert(body);
+    return;
+  }
+  if (!are_defaults) {
+    if (scene.rules.settings.empty()) scene.rules.settings.emplace_back();
+    rule.settings = static_cast<std::uint32_t>(scene.rules.settings.size());
+    scene.rules.settings.push_back(settings);
+  }
+  rule.later.insert(body);
+  scene.rules.list.push_back(std::move(rule));
+}
+
+BodySet sideOf(const Scene& scene, const std::string& pattern) {
+  BodySet side;
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    if (matchesPattern(pattern, scene.bodies[i].pairLabel())) side.insert(i);
+  }
+  return side;
 }
 
 // The patterns of the two labels for each place where the slash between them may stand.
@@ -77,103 +160,74 @@ std::vector<std::array<std::string, 2>> patternsOfLabels(const std::string& give
   return all;
 }
 
-// Appends the names of the pairs by rule with a body on each side. @return whether there is one
-bool appendNames(const Scene& scene, const BodySide& a, const BodySide& b, std::vector<std::string>& names) {
-  const std::size_t before = names.size();
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    for (std::size_t j = 0; a[i] && j < b.size() && names.size() < kMostPairsNamed; ++j) {
-      if (!b[j] || (j < i && a[j] && b[i])) continue;
-      const auto pair = ruledPair(scene, i, j);
-      if (pair && std::find(names.begin(), names.end(), pair->name) == names.end())
-        names.push_back(pair->name);
+// Visits the pairs by rule with a body on each side, each once, while `act` returns true.
+template <typename Act>
+void visitPairs(const Scene& scene, const BodySet& a, const BodySet& b, const Act& act) {
+  const std::vector<std::size_t> others = b.indices();
+  for (const std::size_t i : a.indices()) {
+    for (const std::size_t j : others) {
+      if (j < i && a.contains(j) && b.contains(i)) continue;
+      std::optional<ScenePair> pair = ruledPair(scene, i, j);
+      if (pair && !act(std::move(*pair))) return;
     }
   }
-  return names.size() > before;
+}
+
+// Appends the names of the pairs by rule with a body on each side. @return whether there is one
+bool appendNames(const Scene& scene, const BodySet& a, const BodySet& b, std::vector<std::string>& names) {
+  bool is_any = false;
+  visitPairs(scene, a, b, [&](const ScenePair& pair) {
+    is_any = true;
+    if (names.size() >= kMostPairsNamed) return false;
+    if (std::find(names.begin(), names.end(), pair.name) == names.end()) names.push_back(pair.name);
+    return true;
+  });
+  return is_any;
+}
+
+template <typename Settings>
+bool areEqual(const ParameterTable<Settings>& table, const Settings& l, const Settings& r) {
+  return std::all_of(table.begin(), table.end(),
+                     [&](const auto& parameter) { return parameter.get(l) == parameter.get(r); });
 }
 
 }  // namespace
 
 bool haveEqualSettings(const PairSettings& l, const PairSettings& r) {
-  const auto& table = pairParameters();
-  return l.effects == r.effects && std::all_of(table.begin(), table.end(), [&](const auto& parameter) {
-           return parameter.get(l) == parameter.get(r);
-         });
+  return l.effects == r.effects && areEqual(pairParameters(), l, r) &&
+         areEqual(geneticParameters(), l.tracker.cold, r.tracker.cold) &&
+         areEqual(geneticParameters(), l.tracker.warm, r.tracker.warm);
 }
 
-void changeRules(Scene& scene, const BodySide& side_a, const BodySide& side_b, const RuleChange& change) {
-  std::map<ClassKey, std::uint32_t> classes = {{ClassKey(), 0}};
-  std::vector<std::uint32_t> class_of_body;
-  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-    const SceneBody& body = scene.bodies[i];
-    const ClassKey key{body.pair_class, side_a[i], side_b[i], body.is_robot_link};
-    class_of_body.push_back(classes.emplace(key, static_cast<std::uint32_t>(classes.size())).first->second);
-  }
-  PairRules rules;
-  rules.filtered = scene.rules.filtered;
-  rules.classes = classes.size();
-  rules.table.resize(rules.classes * rules.classes);
-  NewSettings settings(scene);
-  for (const auto& [earlier, row] : classes) {
-    for (const auto& [later, column] : classes) {
-      PairRule& rule = rules.of(row, column) = scene.rules.of(earlier.before, later.before);
-      const bool is_forwards = earlier.on_a && later.on_b;
-      if (is_forwards || (earlier.on_b && later.on_a)) {
-        settings.change(
-            rule, {earlier.is_link && later.is_link, is_forwards ? PairOrder::Earlier : PairOrder::Later},
-            change);
-      } else {
-        settings.keep(rule);
-      }
-    }
-  }
-  rules.settings = settings.take();
-  for (std::size_t i = 0; i < class_of_body.size(); ++i) {
-    if (scene.bodies[i].pair_class != class_of_body[i]) scene.bodies.edit(i).pair_class = class_of_body[i];
-  }
-  scene.rules = std::move(rules);
+void changeRules(Scene& scene, const BodySet& side_a, const BodySet& side_b, const RuleChange& change) {
+  changeOrderedRules(scene, side_a, side_b, PairOrder::Earlier, change);
+  if (!(side_a == side_b)) changeOrderedRules(scene, side_b, side_a, PairOrder::Later, change);
 }
 
-void takeOutEmptyClasses(Scene& scene) {
-  constexpr std::size_t kFew = 16;
-  if (scene.rules.classes <= kFew) return;
-  std::vector<bool> is_used(scene.rules.classes, false);
-  for (const SceneBody& body : scene.bodies) is_used[body.pair_class] = true;
-  const auto used = static_cast<std::size_t>(std::count(is_used.begin(), is_used.end(), true));
-  if (2 * used > scene.rules.classes) return;
-  const BodySide nobody(scene.bodies.size(), false);
-  changeRules(scene, nobody, nobody, [](PairRule&, PairSettings&, const RuledBodies&) {});
+void changeOrderedRules(Scene& scene, const BodySet& earlier, const BodySet& later, PairOrder order,
+                        const RuleChange& change) {
+  RuleParts(scene, earlier, later, order, change).run();
 }
 
-std::uint32_t classOfAdded(Scene& scene, const PairSettings& settings) {
-  if (haveEqualSettings(settings, scene.defaults.pairs)) return 0;
-  PairRules& rules = scene.rules;
-  const auto is_it = [&](std::size_t column) {
-    const PairRule& first = rules.of(0, column);
-    if (first.settings == 0 || !haveEqualSettings(settings, rules.settings[first.settings])) return false;
-    for (std::size_t row = 0; row < rules.classes; ++row) {
-      const PairRule& rule = rules.of(row, column);
-      if (rule.is_watched || !rule.is_enabled || rule.settings != first.settings) return false;
-    }
-    return true;
-  };
-  for (std::size_t column = 1; column < rules.classes; ++column) {
-    if (is_it(column)) return static_cast<std::uint32_t>(column);
+void addRulesOfNewBody(Scene& scene, const BodySet& partners, const PairSettings& settings) {
+  const std::size_t body = scene.bodies.size() - 1;
+  PairRule rule;
+  rule.order = PairOrder::Later;
+  if (!haveEqualSettings(settings, scene.defaults.pairs)) {
+    rule.earlier = BodySet::before(body) - partners;
+    addRule(scene, body, rule, settings);
   }
-  PairRules more;
-  more.filtered = rules.filtered;
-  more.settings = rules.settings;
-  if (more.settings.empty()) more.settings.emplace_back();
-  more.settings.push_back(settings);
-  more.classes = rules.classes + 1;
-  more.table.resize(more.classes * more.classes);
-  for (std::size_t row = 0; row < more.classes; ++row) {
-    for (std::size_t column = 0; column < rules.classes; ++column) {
-      more.of(row, column) = rules.of(row < rules.classes ? row : 0, column);
-    }
-    more.of(row, rules.classes).settings = static_cast<std::uint32_t>(more.settings.size() - 1);
+  rule.is_watched = true;
+  rule.earlier = partners;
+  addRule(scene, body, std::move(rule), settings);
+}
+
+void takeOutOfRules(PairRules& rules, const std::vector<bool>& gone) {
+  for (PairRule& rule : rules.list) {
+    rule.earlier.takeOut(gone);
+    rule.later.takeOut(gone);
   }
-  rules = std::move(more);
-  return static_cast<std::uint32_t>(rules.classes - 1);
+  tidy(rules);
 }
 
 std::vector<std::string> changeMatchingPairs(Scene& scene, const std::string& pattern,
@@ -194,10 +248,10 @@ std::vector<std::string> changeMatchingPairs(Scene& scene, const std::string& pa
   }
   if (isPattern(pattern)) {
     for (const auto& [before, after] : patternsOfLabels(pattern)) {
-      const BodySide a = sideOf(scene, before);
-      const BodySide b = isEmpty(a) ? BodySide() : sideOf(scene, after);
-      if (isEmpty(b) || !appendNames(scene, a, b, names)) continue;
-      changeRules(scene, a, b, [&](PairRule& rule, PairSettings& settings, const RuledBodies&) {
+      const BodySet a = sideOf(scene, before);
+      const BodySet b = a.empty() ? BodySet() : sideOf(scene, after);
+      if (!appendNames(scene, a, b, names)) continue;
+      changeRules(scene, a, b, [&](PairRule& rule, PairSettings& settings, PairOrder) {
         change("pairs '" + pattern + "'", rule.is_enabled, settings);
       });
     }
@@ -218,15 +272,12 @@ void listMatchingPairs(Scene& scene, const std::vector<std::string>& patterns) {
       continue;
     }
     for (const auto& [before, after] : patternsOfLabels(pattern)) {
-      const BodySide a = sideOf(scene, before);
-      const BodySide b = isEmpty(a) ? BodySide() : sideOf(scene, after);
-      for (std::size_t i = 0; i < a.size() && !isEmpty(b); ++i) {
-        for (std::size_t j = 0; a[i] && j < b.size(); ++j) {
-          if (!b[j] || scene.pairs.size() >= scene.limits.pairs) continue;
-          std::optional<ScenePair> pair = ruledPair(scene, i, j);
-          if (pair && matchesPattern(pattern, pair->name)) scene.pairs.push_back(std::move(*pair));
-        }
-      }
+      const BodySet a = sideOf(scene, before);
+      visitPairs(scene, a, a.empty() ? BodySet() : sideOf(scene, after), [&](ScenePair pair) {
+        if (scene.pairs.size() >= scene.limits.pairs) return false;
+        if (matchesPattern(pattern, pair.name)) scene.pairs.push_back(std::move(pair));
+        return true;
+      });
     }
   }
 }

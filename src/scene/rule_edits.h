@@ -8,23 +8,21 @@
 
 namespace concave_distance::detail {
 
-/// One entry for each body of a scene: whether it is on this side of some pairs.
-using BodySide = std::vector<bool>;
+/// Changes a rule and its settings. The order says which side of the edit the earlier body is on: the first
+/// or, with PairOrder::Later, the second. Of bodies on both sides it is called once more, with Later.
+using RuleChange = std::function<void(PairRule& rule, PairSettings& settings, PairOrder order)>;
 
-/// Tells a change of rules about the pairs of two classes.
-struct RuledBodies {
-  bool both_are_links = false;           ///< of robots
-  PairOrder order = PairOrder::Earlier;  ///< which of the two is on side A
-};
-using RuleChange = std::function<void(PairRule& rule, PairSettings& settings, const RuledBodies& bodies)>;
-
-/// Changes the rules of the pairs with one body on each side, in either order: classes whose bodies do not
-/// all stand on the same sides are split, those without bodies go. Listed pairs stay as they are.
-void changeRules(Scene& scene, const BodySide& side_a, const BodySide& side_b, const RuleChange& change);
-/// Takes out classes without bodies when most are.
-void takeOutEmptyClasses(Scene& scene);
-/// Returns the class of an added body whose pairs with earlier bodies have these settings.
-std::uint32_t classOfAdded(Scene& scene, const PairSettings& settings);
+/// Changes what the rules say of the pairs with one body on each side, in either order. Listed pairs stay as
+/// they are.
+void changeRules(Scene& scene, const BodySet& side_a, const BodySet& side_b, const RuleChange& change);
+/// Does so for pairs whose earlier body is on the first side alone.
+void changeOrderedRules(Scene& scene, const BodySet& earlier, const BodySet& later, PairOrder order,
+                        const RuleChange& change);
+/// Says how the last body of the scene, a new one, is watched against the earlier ones: those of `partners`
+/// with these settings. It is body A.
+void addRulesOfNewBody(Scene& scene, const BodySet& partners, const PairSettings& settings);
+/// Follows bodies that leave the scene.
+void takeOutOfRules(PairRules& rules, const std::vector<bool>& gone);
 
 /// Changes a pair. @param where names it for errors
 using PairChange = std::function<void(const std::string& where, bool& enabled, PairSettings& settings)>;

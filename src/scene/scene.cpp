@@ -1,5 +1,7 @@
 #include "concave_distance/scene/scene.h"
 
+#include <algorithm>
+
 #include "base/parameter_checks.h"
 #include "concave_distance/base/error.h"
 
@@ -22,6 +24,13 @@ TrackerParameters withMargins(TrackerParameters settings, const SceneBody& a, co
 
 std::optional<std::size_t> Scene::findBody(const std::string& name) const {
   return bodies.find(name);
+}
+
+std::optional<std::size_t> Scene::findBody(std::uint64_t serial) const {
+  const auto found = std::find_if(bodies.begin(), bodies.end(),
+                                  [&](const SceneBody& body) { return body.serial == serial; });
+  if (found == bodies.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - bodies.begin());
 }
 
 std::optional<std::size_t> Scene::findPair(const std::string& name_a, const std::string& name_b) const {

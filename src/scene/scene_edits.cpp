@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "base/ascii.h"
+#include "base/free_name.h"
 #include "concave_distance/base/error.h"
 #include "matching_bodies.h"
 #include "rule_edits.h"
@@ -16,17 +17,9 @@ bool isLabel(const Scene& scene, const std::string& label) {
                      [&](const SceneBody& body) { return body.pairLabel() == label; });
 }
 
-std::string freePairName(const Scene& scene, const std::string& wanted) {
-  std::string name = wanted;
-  for (int copy = 2; scene.pairs.find(name); ++copy) {
-    name = wanted + "_" + std::to_string(copy);
-  }
-  return name;
-}
-
 void appendPair(Scene& scene, std::size_t body_a, std::size_t body_b, const PairSettings& settings) {
   ScenePair pair;
-  pair.name = freePairName(scene, scene.bodies[body_a].pairLabel() + "/" + scene.bodies[body_b].pairLabel());
+  pair.name = freePairName(scene, body_a, body_b);
   pair.body_a = body_a;
   pair.body_b = body_b;
   pair.settings = settings;
@@ -50,10 +43,12 @@ bool mayBeCreated(const Scene& scene, std::size_t body_a, std::size_t body_b) {
   return !areRigid(scene, a, b) && !(a.is_robot_link && b.is_robot_link);
 }
 
-detail::BodySide sideOf(const Scene& scene, const std::vector<std::size_t>& bodies) {
-  detail::BodySide side(scene.bodies.size(), false);
-  for (const std::size_t body : bodies) side[body] = true;
-  return side;
+BodySet withoutLinks(const Scene& scene, const std::vector<std::size_t>& bodies) {
+  BodySet others;
+  for (const std::size_t body : bodies) {
+    if (!scene.bodies[body].is_robot_link) others.insert(body);
+  }
+  return others;
 }
 
 std::vector<std::string> setOnePairEnabled(Scene& scene, std::size_t body_a, std::size_t body_b, bool enabled,
@@ -79,13 +74,13 @@ std::vector<std::string> setOnePairEnabled(Scene& scene, std::size_t body_a, std
 // Of all pairs of the two sides: first those that are there, then those that are created.
 std::vector<std::string> setGroupsEnabled(Scene& scene, const std::vector<std::size_t>& bodies_a,
                                           const std::vector<std::size_t>& bodies_b, bool enabled) {
-  const detail::BodySide side_a = sideOf(scene, bodies_a);
-  const detail::BodySide side_b = sideOf(scene, bodies_b);
+  const BodySet side_a(bodies_a);
+  const BodySet side_b(bodies_b);
   std::vector<std::string> names;
   std::vector<std::pair<std::size_t, std::size_t>> missing;
   for (const std::size_t a : bodies_a) {
     for (const std::size_t b : bodies_b) {
-      const bool is_met_twice = side_a[b] && side_b[a] && b < a;
+      const bool is_met_twice = side_a.contains(b) && side_b.contains(a) && b < a;
       if (a == b || is_met_twice || names.size() + missing.size() >= detail::kMostPairsNamed) continue;
       if (const std::optional<ScenePair> pair = pairOf(scene, a, b)) {
         names.push_back(pair->name);
@@ -96,17 +91,22 @@ std::vector<std::string> setGroupsEnabled(Scene& scene, const std::vector<std::s
   }
   for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
     const ScenePair& pair = scene.pairs[i];
-    if ((side_a[pair.body_a] && side_b[pair.body_b]) || (side_a[pair.body_b] && side_b[pair.body_a])) {
+    if ((side_a.contains(pair.body_a) && side_b.contains(pair.body_b)) ||
+        (side_a.contains(pair.body_b) && side_b.contains(pair.body_a))) {
       scene.pairs.edit(i).enabled = enabled;
     }
   }
   detail::changeRules(scene, side_a, side_b,
-                      [&](PairRule& rule, PairSettings&, const detail::RuledBodies& bodies) {
-                        rule.is_enabled = enabled;
-                        if (rule.is_watched || !enabled || bodies.both_are_links) return;
-                        rule.is_watched = true;
-                        rule.order = bodies.order;
-                      });
+                      [&](PairRule& rule, PairSettings&, PairOrder) { rule.is_enabled = enabled; });
+  // Links of robots are watched against each other only when a person names both.
+  const auto watch = [&](const BodySet& a, const BodySet& b) {
+    detail::changeRules(scene, a, b,
+                        [](PairRule& rule, PairSettings&, PairOrder order) { rule.watch(order); });
+  };
+  if (enabled) {
+    watch(withoutLinks(scene, bodies_a), side_b);
+    watch(side_a, withoutLinks(scene, bodies_b));
+  }
   for (const auto& [a, b] : missing) {
     if (const auto pair = ruledPair(scene, a, b)) names.push_back(pair->name);
   }
@@ -194,15 +194,16 @@ AddedPairs appendBody(Scene& scene, SceneBody body, const PairPartners& partners
   const Partners found = partnersOf(scene, body, partners, added);
   requireRoomForPairs(scene, found.named.size());
   body.serial = newBodySerial();
-  body.pair_class = detail::classOfAdded(scene, settings);
-  body.added_rule = std::make_shared<const AddedBodyRule>(found.rule);
+  body.is_added = true;
   for (const std::string& frame : found.rigid_frames) {
     scene.rigid.join(frame, body.frame);
   }
   added.rigid_frames = found.rigid_frames;
-  for (int copy = 2; isLabel(scene, body.pairLabel()); ++copy)
-    body.label = body.name + "_" + std::to_string(copy);
+  const std::string label =
+      freeName(body.pairLabel(), [&](const std::string& wanted) { return isLabel(scene, wanted); });
+  if (label != body.pairLabel()) body.label = label;
   scene.bodies.push_back(std::move(body));
+  detail::addRulesOfNewBody(scene, found.by_rule, settings);
   for (const std::size_t partner : found.named) {
     appendPair(scene, scene.bodies.size() - 1, partner, settings);
   }
@@ -222,28 +223,36 @@ void takeOutBody(Scene& scene, const std::string& name, bool allow_robot_link) {
                 "set allow_robot_link to remove it anyway, or switch its pairs off with set_pair_enabled");
   }
   requireNothingAttached(scene, scene.bodies[gone]);
+  std::vector<bool> is_gone(scene.bodies.size(), false);
+  is_gone[gone] = true;
+  takeOutBodies(scene, is_gone);
+}
+
+void takeOutBodies(Scene& scene, const std::vector<bool>& gone) {
+  NamedList<SceneBody> bodies;
+  std::vector<std::size_t> index_now;
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    index_now.push_back(bodies.size());
+    if (!gone[i]) bodies.appendShared(scene.bodies, i);
+  }
   PairList kept;
-  for (std::size_t index = 0; index < scene.pairs.size(); ++index) {
-    const ScenePair& pair = scene.pairs[index];
-    if (pair.body_a == gone || pair.body_b == gone) continue;
-    if (pair.body_a < gone && pair.body_b < gone) {
-      kept.appendShared(scene.pairs, index);
+  for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
+    const ScenePair& pair = scene.pairs[i];
+    if (gone[pair.body_a] || gone[pair.body_b]) continue;
+    const std::size_t a = index_now[pair.body_a];
+    const std::size_t b = index_now[pair.body_b];
+    if (a == pair.body_a && b == pair.body_b) {
+      kept.appendShared(scene.pairs, i);
     } else {
       ScenePair moved = pair;
-      moved.body_a -= pair.body_a > gone ? 1 : 0;
-      moved.body_b -= pair.body_b > gone ? 1 : 0;
+      moved.body_a = a;
+      moved.body_b = b;
       kept.push_back(std::move(moved));
-    }
-  }
-  NamedList<SceneBody> bodies;
-  for (std::size_t index = 0; index < scene.bodies.size(); ++index) {
-    if (index != gone) {
-      bodies.appendShared(scene.bodies, index);
     }
   }
   scene.pairs = std::move(kept);
   scene.bodies = std::move(bodies);
-  detail::takeOutEmptyClasses(scene);
+  detail::takeOutOfRules(scene.rules, gone);
 }
 
 std::vector<std::string> setPairEnabled(Scene& scene, const PairReference& reference, bool enabled,

@@ -54,9 +54,9 @@ std::vector<std::optional<std::size_t>> SceneTracker::placesNow(const Scene& sce
 }
 
 void SceneTracker::setScene(const Scene& scene, bool settings_changed) {
-  for (const SceneBody& body : scene.bodies) {
-    if (mayBeNear(body) && !body.mesh) {
-      throw Error("scene", "body '" + body.name + "' has no mesh", "set SceneBody::mesh");
+  for (const std::size_t body : scene.rules.allBodies().indices()) {
+    if (!scene.bodies[body].mesh) {
+      throw Error("scene", "body '" + scene.bodies[body].name + "' has no mesh", "set SceneBody::mesh");
     }
   }
   const std::vector<std::optional<std::size_t>> places = placesNow(scene);

@@ -435,6 +435,13 @@ TEST_F(ConstraintRowsTest, GoOnThroughEditsOfTheScene) {
   edited.bodies = {};
   edited.bodies.push_back(first);
   for (const SceneBody& body : scene.bodies) edited.bodies.push_back(body);
+  for (PairRule& rule : edited.rules.list) {
+    for (BodySet* side : {&rule.earlier, &rule.later}) {
+      std::vector<std::size_t> bodies = side->indices();
+      for (std::size_t& body : bodies) ++body;
+      *side = BodySet(bodies);
+    }
+  }
   const std::size_t plate = *edited.findBody("plate");
   edited.bodies.edit(plate).frame_from_body =
       Eigen::Translation3d(0, 0, 0.002) * Eigen::Isometry3d::Identity();

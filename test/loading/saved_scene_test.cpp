@@ -303,7 +303,7 @@ void expectSamePairs(const Scene& scene, const Scene& loaded) {
       EXPECT_EQ(pair->settings.tracker.cold.population_size, other->settings.tracker.cold.population_size);
     }
   }
-  EXPECT_EQ(countRuledPairs(scene), countRuledPairs(loaded));
+  EXPECT_EQ(countPairsByRule(scene), countPairsByRule(loaded));
 }
 
 void expectSameScene(const Scene& scene, const Scene& loaded) {

@@ -130,7 +130,7 @@ TEST(MovedBody, IsWatchedAgainstBodiesOfItsFrameFromThenOn) {
   EXPECT_TRUE(watches(scene, "box", "table"));
   EXPECT_TRUE(watches(scene, "box", "peg"));
   EXPECT_FALSE(watches(scene, "peg", "table"));
-  EXPECT_EQ(countRuledPairs(scene), allPairs(scene).size());
+  EXPECT_EQ(countPairsByRule(scene), allPairs(scene).size());
 }
 
 /// The box of cell() is moved along x, past the table at 0; what the tracker says of them.
@@ -191,7 +191,7 @@ TEST(AttachedBody, IsNotWatchedAgainstWhatItMayTouchUntilItIsDetached) {
   EXPECT_FALSE(watches(scene, "box", "peg"));
   EXPECT_TRUE(watches(scene, "box", "table"));
   const PairList pairs = allPairs(scene);
-  EXPECT_EQ(countRuledPairs(scene), pairs.size() - 1) << "one is listed";
+  EXPECT_EQ(countPairsByRule(scene), pairs.size() - 1) << "one is listed";
   ASSERT_TRUE(run(scene, {detach("box")}).faults.empty());
   EXPECT_TRUE(watches(scene, "box", "hand"));
   EXPECT_TRUE(watches(scene, "box", "arm"));

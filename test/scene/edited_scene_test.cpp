@@ -189,7 +189,7 @@ class EditedScene {
     for (const auto& pair : tracker_.pairs()) {
       tracked[std::minmax(pair->origin->body_a, pair->origin->body_b)] = pair.get();
     }
-    ASSERT_EQ(countRuledPairs(scene_), tracked.size());
+    ASSERT_EQ(countPairsByRule(scene_), tracked.size());
     for (std::size_t i = 0; i < scene_.bodies.size(); ++i) {
       for (std::size_t j = i + 1; j < scene_.bodies.size(); ++j) {
         const std::string& a = scene_.bodies[i].name;
@@ -251,7 +251,7 @@ TEST(EditedScene, TakesAHundredBodiesOfOneMeshInABatch) {
     operations.push_back(add(body("c" + std::to_string(i), "world", at(0, 2.0 * i))));
   ASSERT_TRUE(run(scene, operations).faults.empty());
   EXPECT_EQ(scene.bodies.size(), 105U);
-  EXPECT_EQ(countRuledPairs(scene), 2U * 103U + 1U) << "each against the two links, and these";
+  EXPECT_EQ(countPairsByRule(scene), 2U * 103U + 1U) << "each against the two links, and these";
 }
 
 }  // namespace

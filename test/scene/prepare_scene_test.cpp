@@ -200,8 +200,10 @@ TEST(PrepareScene, RaisesNoAlertByItself) {
 TEST(PrepareScene, MakesOfBodiesThatMayComeNearWhatTheyNeed) {
   Scene scene = bumpyScene();
   scene.pairs = {};
-  const auto everything = std::make_shared<const AddedBodyRule>(AddedBodyRule{true, {}});
-  for (std::size_t i = 0; i < scene.bodies.size(); ++i) scene.bodies.edit(i).added_rule = everything;
+  PairRule everything;
+  everything.earlier = everything.later = BodySet::before(scene.bodies.size());
+  everything.watch(PairOrder::Later);
+  scene.rules.list = {everything};
   scene.defaults.pairs.tracker.cutoff = 1.0;
   SceneTracker tracker({1, nullptr});
   tracker.setScene(scene);

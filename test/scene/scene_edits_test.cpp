@@ -189,9 +189,9 @@ TEST(PairRules, TakeSettingsAndNamesByPatternWithoutAList) {
   for (int i = 0; i < 8; ++i) {
     addBody(scene, body("b" + std::to_string(i), "f" + std::to_string(i)), {}, {});
   }
-  EXPECT_EQ(countRuledPairs(scene), 28U);
+  EXPECT_EQ(countPairsByRule(scene), 28U);
   EXPECT_EQ(setPairEnabled(scene, {"b7/*", "", ""}, false, {}).size(), 7U);
-  EXPECT_EQ(countRuledPairs(scene), 21U);
+  EXPECT_EQ(countPairsByRule(scene), 21U);
   EXPECT_EQ(setWarningDistance(scene, "b1/*", 0.25, 0.0).size(), 7U);
   EXPECT_TRUE(scene.pairs.empty());
   for (const ScenePair& pair : allPairs(scene)) {
@@ -205,11 +205,14 @@ TEST(PairRules, TakeSettingsAndNamesByPatternWithoutAList) {
   EXPECT_EQ(setPairEnabled(scene, {"b7/b1", "", ""}, true, {}), Names{"b7/b1"});
   ASSERT_EQ(scene.pairs.size(), 1U);
   EXPECT_EQ(scene.pairs[0].settings.warning_distance, 0.25);
-  EXPECT_EQ(countRuledPairs(scene), 21U);
-  // A body of the same settings as those that were added needs no class of its own.
+  EXPECT_EQ(countPairsByRule(scene), 21U);
+  // A body of the same settings as those that were added needs no rule of its own.
+  const std::size_t rules = scene.rules.list.size();
   addBody(scene, body("late", "late"), {}, {});
-  EXPECT_EQ(countRuledPairs(scene), 21U + 8U);
-  EXPECT_EQ(countRuledPairs(scene, {false, true, false, false, false, false, false, true, false}), 15U + 6U);
+  EXPECT_EQ(countPairsByRule(scene), 21U + 8U);
+  EXPECT_EQ(scene.rules.list.size(), rules);
+  const BodySet others({0, 2, 3, 4, 5, 6, 8});
+  EXPECT_EQ(countPairsByRule(scene, {{others, others}}), 15U + 6U);
 }
 
 // A scene file with it would not load again.
@@ -233,7 +236,7 @@ TEST(SetWarningDistance, RefusesOneBeyondTheCutoffOfAPair) {
   }
 }
 
-// The number that is counted by classes is that of the pairs tried one by one.
+// The number that is counted is that of the pairs tried one by one.
 TEST(PairRules, CountWhatTheyWatch) {
   for (unsigned seed = 1; seed <= 40; ++seed) {
     std::mt19937 engine(seed);
@@ -268,7 +271,7 @@ TEST(PairRules, CountWhatTheyWatch) {
     for (const ScenePair& pair : allPairs(scene)) {
       count += pair.enabled && !scene.pairs.find(pair.body_a, pair.body_b) ? 1 : 0;
     }
-    EXPECT_EQ(countRuledPairs(scene), count) << "seed " << seed;
+    EXPECT_EQ(countPairsByRule(scene), count) << "seed " << seed;
   }
 }
 

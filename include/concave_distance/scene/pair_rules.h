@@ -1,18 +1,20 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <unordered_set>
+#include <string>
 #include <utility>
 #include <vector>
+
+#include "concave_distance/scene/body_set.h"
 
 namespace concave_distance {
 
 struct PairSettings;
 struct Scene;
 struct SceneBody;
-class PairList;
 
 /// Says which of two bodies is body A of their pair.
 enum class PairOrder : std::uint8_t {
@@ -20,39 +22,48 @@ enum class PairOrder : std::uint8_t {
   Later
 };
 
-/// Holds what the rules of a scene say of the pairs of two classes of bodies.
+/// Says how pairs are watched whose two bodies are in the two sets.
 struct PairRule {
-  bool is_watched = false;  ///< unless a filter leaves the pair out
+  BodySet earlier;  ///< holds the body that stands earlier in Scene::bodies ...
+  BodySet later;    ///< ... and this one the other
+  bool is_watched = false;
   bool is_enabled = true;
   PairOrder order = PairOrder::Earlier;
-  /// Place in PairRules::settings; 0 stands for Scene::defaults, and the entry at 0 is not read.
+  /// Index in PairRules::settings; 0 stands for Scene::defaults, and the entry at 0 is not read.
   std::uint32_t settings = 0;
+
+  bool holds(std::size_t earlier_body, std::size_t later_body) const {
+    return earlier.contains(earlier_body) && later.contains(later_body);
+  }
+  /// Watches its pairs; body A stays where it was watched already.
+  void watch(PairOrder wanted) {
+    if (!is_watched) order = wanted;
+    is_watched = true;
+  }
+  /// Returns body A and body B of a pair.
+  std::pair<std::size_t, std::size_t> ordered(std::size_t body, std::size_t other) const {
+    const std::pair<std::size_t, std::size_t> bodies = std::minmax(body, other);
+    return order == PairOrder::Earlier ? bodies : std::pair(bodies.second, bodies.first);
+  }
 };
 
-/// Says which two bodies of a scene are watched, and with which settings, without a list of pairs: bodies
-/// that all entries of the scene file name alike are one class (SceneBody::pair_class), and each two classes
-/// have one rule. A pair that Scene::pairs lists follows no rule.
+/// Says which two bodies of a scene are watched, and with which settings, without a list of pairs. A pair
+/// that Scene::pairs lists follows no rule.
 struct PairRules {
-  std::size_t classes = 1;
-  /// Row by row: the class of the earlier body, then that of the later one, as Scene::bodies has them.
-  std::vector<PairRule> table = std::vector<PairRule>(1);
+  std::vector<PairRule> list;
   std::vector<PairSettings> settings;  ///< by PairRule::settings; see there for the first
   /// Pairs of SceneBody::serial, the lesser first, ascending: what adjacency and SRDFs leave out.
   std::shared_ptr<const std::vector<std::pair<std::uint64_t, std::uint64_t>>> filtered;
 
-  const PairRule& of(std::size_t earlier, std::size_t later) const {
-    return table[earlier * classes + later];
-  }
-  PairRule& of(std::size_t earlier, std::size_t later) { return table[earlier * classes + later]; }
-};
-
-/// Says which earlier bodies a body that was added while the scene ran is watched against, besides what the
-/// table of classes says. The later of two such bodies decides. Body A of these pairs is the added one.
-struct AddedBodyRule {
-  bool all = false;                          ///< every body but `bodies`; false: `bodies` alone
-  std::unordered_set<std::uint64_t> bodies;  ///< SceneBody::serial
-
-  bool watches(std::uint64_t serial) const { return (bodies.count(serial) != 0) != all; }
+  /// Returns the rule that decides the pair of two bodies: the last one in the list that holds it, else one
+  /// that watches nothing.
+  const PairRule& of(std::size_t earlier, std::size_t later) const;
+  /// Returns the bodies before this one whose pairs with it are watched, and enabled if that is asked for.
+  BodySet watchedBefore(std::size_t body, bool only_enabled) const;
+  /// Returns the bodies of the pairs that a rule of the list decides.
+  BodySet bodiesOf(std::size_t rule) const;
+  /// Returns the bodies that any rule of the list names.
+  BodySet allBodies() const;
 };
 
 /// Returns whether nothing moves the two bodies against each other: their frames are one or rigidly
@@ -65,8 +76,10 @@ const PairRule* ruleOf(const Scene& scene, std::size_t body_a, std::size_t body_
 /// Returns the settings that a rule gives.
 const PairSettings& settingsOf(const Scene& scene, const PairRule& rule);
 
-/// Returns the number of enabled pairs that the rules give. O(bodies x classes).
-/// @param left_out bodies whose pairs do not count, one entry each; empty: none
-std::size_t countRuledPairs(const Scene& scene, const std::vector<bool>& left_out = {});
+/// Counts the enabled pairs that the rules give. Of 1000 bodies it takes some 0.2 ms.
+std::size_t countPairsByRule(const Scene& scene);
+/// Counts those with the earlier body on the first and the later one on the second of two sides that hold
+/// no pair twice.
+std::size_t countPairsByRule(const Scene& scene, const std::vector<std::pair<BodySet, BodySet>>& sides);
 
 }  // namespace concave_distance

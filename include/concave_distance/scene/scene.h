@@ -70,10 +70,9 @@ struct SceneBody {
   std::string label;  ///< what names of pairs call it; empty: its name
   /// Stays the same through all edits of this body.
   std::uint64_t serial = newBodySerial();
-  std::uint32_t pair_class = 0;                     ///< row of Scene::rules
-  std::shared_ptr<const AddedBodyRule> added_rule;  ///< nullptr: it came with the scene
-  std::shared_ptr<const BodyOrigin> origin;         ///< nullptr: not known
-  std::shared_ptr<const CloudState> cloud;          ///< nullptr: it is not made of what a sensor sees
+  bool is_added = false;                     ///< while the scene ran
+  std::shared_ptr<const BodyOrigin> origin;  ///< nullptr: not known
+  std::shared_ptr<const CloudState> cloud;   ///< nullptr: it is not made of what a sensor sees
 
   const std::string& pairLabel() const { return label.empty() ? name : label; }
 };
@@ -168,12 +167,16 @@ struct Scene {
   std::vector<std::shared_ptr<const RobotKinematics>> robots;
 
   std::optional<std::size_t> findBody(const std::string& name) const;
+  /// Index of the body with this SceneBody::serial. O(bodies).
+  std::optional<std::size_t> findBody(std::uint64_t serial) const;
   /// Index of the listed pair of these bodies, in either order.
   std::optional<std::size_t> findPair(const std::string& name_a, const std::string& name_b) const;
 };
 
+/// Returns `<label of A>/<label of B>`, or where a listed pair has that name the same with `_2` and so on.
+std::string freePairName(const Scene& scene, std::size_t body_a, std::size_t body_b);
 /// Returns the pair of two bodies, places in scene.bodies, as the rules give it; nothing where they give none
-/// or the list has it. Its name ends in `_2` and so on where a listed pair has that name.
+/// or the list has it.
 std::optional<ScenePair> ruledPair(const Scene& scene, std::size_t body_a, std::size_t body_b);
 /// Returns the pair of two bodies, listed or by the rules.
 std::optional<ScenePair> pairOf(const Scene& scene, std::size_t body_a, std::size_t body_b);

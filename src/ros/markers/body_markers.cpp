@@ -44,7 +44,7 @@ std::vector<double> opacities(const Scene& scene) {
   result.reserve(scene.bodies.size());
   for (const SceneBody& body : scene.bodies) result.push_back(body.colour[3]);
   const bool may_press_by_rule = std::any_of(
-      scene.rules.table.begin(), scene.rules.table.end(),
+      scene.rules.list.begin(), scene.rules.list.end(),
       [&](const PairRule& rule) { return rule.is_watched && settingsOf(scene, rule).effects.normal_force; });
   for (const ScenePair& pair : may_press_by_rule ? allPairs(scene, kMostPairsTried) : scene.pairs) {
     if (!pressesOnEachOther(pair)) continue;

@@ -275,7 +275,7 @@ void DistanceServer::doHousekeeping() {
 
 void DistanceServer::reportLateness() {
   const std::shared_ptr<const Scene> scene = keeper_.served()->scene;
-  const std::size_t pairs = scene->pairs.size() + countRuledPairs(*scene);
+  const std::size_t pairs = scene->pairs.size() + countPairsByRule(*scene);
   if (pairs == 0) {
     lateness_.restart();
     return;

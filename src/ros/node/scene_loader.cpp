@@ -74,7 +74,7 @@ void logScene(const Scene& scene, double seconds) {
     ROS_ERROR_STREAM("Not loaded: " << problem.where << ": " << problem.message);
   }
   ROS_INFO("The scene has %zu bodies and %zu pairs; %zu parts could not be loaded. It took %.1f s.",
-           scene.bodies.size(), scene.pairs.size() + countRuledPairs(scene), scene.problems.size(), seconds);
+           scene.bodies.size(), scene.pairs.size() + countPairsByRule(scene), scene.problems.size(), seconds);
 }
 
 std::string rosPackagePath(const std::string& package) {

@@ -57,7 +57,7 @@ bool SceneServices::listBodies(ListBodies::Request& /*request*/, ListBodies::Res
   response.notes.insert(response.notes.end(), scene->notes.begin(), scene->notes.end());
   if (response.pairs.size() >= scene->pairs.size() + kMostPairsListed) {
     response.notes.push_back("pairs has those that are named and " + std::to_string(kMostPairsListed) +
-                             " others; " + std::to_string(countRuledPairs(*scene)) +
+                             " others; " + std::to_string(countPairsByRule(*scene)) +
                              " are enabled besides the named ones");
   }
   for (const SceneBody& body : scene->bodies) {
@@ -116,7 +116,7 @@ bool SceneServices::resetTracking(ResetTracking::Request& request, ResetTracking
     const std::shared_ptr<const Scene> scene = keeper_.served()->scene;
     if (request.pair.empty()) {
       restarts_.requestAll();
-      response.count = static_cast<std::uint32_t>(scene->pairs.size() + countRuledPairs(*scene));
+      response.count = static_cast<std::uint32_t>(scene->pairs.size() + countPairsByRule(*scene));
       return;
     }
     requirePair(*scene, request.pair);

@@ -1,6 +1,7 @@
 #include "state_conversions.h"
 
 #include <algorithm>
+#include <optional>
 #include <string>
 #include <unordered_map>
 #include <unordered_set>
@@ -9,6 +10,7 @@
 
 #include "loading/saved_operations.h"
 #include "ros/messages/conversions.h"
+#include "scene/journal.h"
 
 namespace concave_distance {
 namespace {
@@ -67,7 +69,7 @@ void addShape(const BodyShape& shape, const std::string& base_folder, bool with_
   }
 }
 
-SceneOperation toAddition(const Scene& scene, const SceneBody& body, bool with_meshes) {
+SceneOperation toAddition(const SceneBody& body, bool with_meshes) {
   SceneOperation message;
   message.operation = SceneOperation::ADD;
   message.body = body.name;
@@ -84,10 +86,6 @@ SceneOperation toAddition(const Scene& scene, const SceneBody& body, bool with_m
     for (const BodyShape& shape : body.origin->shapes)
       addShape(shape, body.origin->base_folder, with_meshes, message);
   }
-  if (!body.added_rule) return message;
-  const std::vector<std::string> named = namesOf(scene, body.added_rule->bodies);
-  message.without_pairs = static_cast<std::uint8_t>(!body.added_rule->all && named.empty());
-  (body.added_rule->all ? message.touch_links : message.pair_with) = named;
   return message;
 }
 
@@ -105,12 +103,12 @@ BodyState toState(const Scene& scene, const SceneBody& body, const Names& names,
   if (const auto carrier = names.find(body.carrier); carrier != names.end())
     message.moved_by = carrier->second;
   if (body.attachment) message.touch_links = namesOf(scene, body.attachment->may_touch);
-  message.add = toAddition(scene, body, with_meshes);
+  message.add = toAddition(body, with_meshes);
   return message;
 }
 
 bool hasDisabledRule(const Scene& scene) {
-  return std::any_of(scene.rules.table.begin(), scene.rules.table.end(),
+  return std::any_of(scene.rules.list.begin(), scene.rules.list.end(),
                      [](const PairRule& rule) { return !rule.is_enabled; });
 }
 
@@ -135,6 +133,14 @@ void fillState(const Scene& scene, const detail::FramesNow& frames, bool with_me
   for (const SceneBody& body : scene.bodies) names.emplace(body.serial, body.name);
   for (const SceneBody& body : scene.bodies) {
     response.bodies.push_back(toState(scene, body, names, frames, with_meshes));
+  }
+  for (const auto& operation : detail::wholeJournal(scene)) {
+    const std::optional<std::size_t> body = scene.findBody(operation->body);
+    if (operation->kind != detail::OperationKind::Add || !body) continue;
+    SceneOperation& message = response.bodies[*body].add;
+    message.pair_with = operation->partners.names;
+    message.touch_links = operation->partners.may_touch;
+    message.without_pairs = static_cast<std::uint8_t>(operation->partners.none);
   }
   for (const auto& [name, bodies] : scene.groups) {
     GroupInfo& group = response.groups.emplace_back();

@@ -164,7 +164,7 @@ void describeScene(const Scene& scene, const std::string& waiting_for, const std
   }
   status.add("bodies", scene.bodies.size());
   status.add("changed description", changed);
-  status.add("pairs", scene.pairs.size() + countRuledPairs(scene));
+  status.add("pairs", scene.pairs.size() + countPairsByRule(scene));
   for (std::size_t index = 0; index < std::min(scene.problems.size(), kListed); ++index) {
     status.add("problem " + std::to_string(index + 1),
                scene.problems[index].where + ": " + scene.problems[index].message);

@@ -21,7 +21,7 @@ PairTopicKeeper::PairTopicKeeper(const ros::NodeHandle& node,
 void PairTopicKeeper::listPairs(Scene& scene) const {
   if (patterns_) {
     detail::listMatchingPairs(scene, *patterns_);
-  } else if (scene.pairs.size() + countRuledPairs(scene) <= kMostUnnamed) {
+  } else if (scene.pairs.size() + countPairsByRule(scene) <= kMostUnnamed) {
     scene.pairs = allPairs(scene);
   }
 }
@@ -42,7 +42,7 @@ PairTopicList PairTopicKeeper::topicsOf(const Scene& scene, const Scene* before,
       moved.emplace(before->pairs[index].name, topics_before[index]);
     }
   }
-  const std::size_t pair_count = scene.pairs.size() + countRuledPairs(scene);
+  const std::size_t pair_count = scene.pairs.size() + countPairsByRule(scene);
   bool is_left_out = pair_count > scene.pairs.size();
   for (std::size_t index = 0; index < topics.size(); ++index) {
     if (is_unchanged(index)) continue;

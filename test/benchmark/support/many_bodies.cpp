@@ -68,16 +68,17 @@ ManyBodies manyBodies(std::size_t count) {
   const auto shapes = makeShapes(engine);
   ManyBodies cell;
   cell.scene.defaults.pairs.tracker.cutoff = kCutoff;
-  AddedBodyRule rule;
-  rule.all = true;
-  const auto added = std::make_shared<const AddedBodyRule>(rule);
+  PairRule rule;
+  rule.earlier = rule.later = BodySet::before(count);
+  rule.watch(PairOrder::Later);
+  cell.scene.rules.list = {rule};
   const double side = std::cbrt(static_cast<double>(count));
   for (std::size_t i = 0; i < count; ++i) {
     SceneBody body;
     body.name = body.frame = "b" + std::to_string(i);
     body.mesh = shapes[i % kShapes];
     body.bounds = boundsOf(*body.mesh);
-    body.added_rule = added;
+    body.is_added = true;
     cell.scene.bodies.push_back(std::move(body));
     Path path;
     path.home = side * (test::uniformInCube(engine, 0.5) + Eigen::Vector3d::Constant(0.5));
