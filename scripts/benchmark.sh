@@ -35,8 +35,6 @@ mkdir -p "$results"
 "$(program edit_benchmark)" --instants "$edit_runs" --runs "$edit_runs" --output "$results/edit.csv"
 "$(program battery_benchmark)" --runs "$runs" --niche-runs "$niche_runs" --output "$results/battery.csv" |
   tee "$results/battery.txt"
-"$(program descent_benchmark)" --spacings "$spacings" --rings "$rings" --output "$results/descents.csv" |
-  tee "$results/descents.txt"
 "$(program islands_benchmark)" --runs "$island_runs" --output "$results/islands.csv"
 "$(program certificate_benchmark)" --output "$results/certificate.csv" | tee "$results/certificate.txt"
 "$(program contact_scenes)" --wall "$wall" --output "$results/contact_scenes.csv" | tee "$results/contact_scenes.txt"

@@ -39,7 +39,7 @@ Below each table stands what every row has run.
   descents along edges and after mutation only (fig. 2.13), mating restriction with sharing only (4.7) and strict (below), annealing
   without new points (5.3.1.b), inheritance by (6.7) alone. A row that changes something names it.
 @MUTATION@@STRICT@- **`our operators`** are this package's: exchange of genes, random immigrants, an elite, conserved niches, an epsilon in the fitness,
-  children on all of the path, random moves, mating restriction, descents in long steps, also of the first population. One at a time: see
+  children on all of the path, random moves, mating restriction, also of the first population. One at a time: see
   [the switches](#from-the-thesiss-algorithm-to-ours-one-switch-at-a-time). **`shipped`** is what a pair's tracker runs by default,
   of a search its cold one.
 - Phi*: runs that end at the best node pair there is (by enumeration); Phi: in its region (1.1 times its distance, nearer than the

@@ -1,6 +1,6 @@
 """The dynamic comparison of the thesis's ch. 6, its picture and its table: for plot_results.py and write_evaluation.py.
 
-Its data are `partition_benchmark --curves-output FILE`: six methods along the battery's manoeuvre.
+Its data are `partition_benchmark --curves-output FILE`: five methods along the battery's manoeuvre.
 """
 import csv
 import math
@@ -8,7 +8,6 @@ import statistics
 
 METHODS = [("partition", "convex partition + QP", "tab:brown"),
            ("comb-GA-wl-sh, Table 6.1", "comb-GA-wl-sh, Table 6.1 (thesis)", "tab:purple"),
-           ("nodes, search of Table 6.1", "pair tracker at nodes, search of Table 6.1", "tab:cyan"),
            ("nodes", "pair tracker at nodes, shipped", "tab:blue"),
            ("refined", "pair tracker at refined, shipped", "tab:orange"),
            ("certified", "pair tracker at certified, shipped", "tab:green")]

@@ -33,29 +33,30 @@ void readCommonRadii(YamlMap& map, TrackerParameters& tracker) {
   }
 }
 
-void readExpertSettings(const YamlValue& value, PairSettings& settings, const GeneticReader& read_genetic) {
+/// All that the map may hold; what it does not name stays.
+void readGeneticParameters(const YamlValue& value, GeneticParameters& parameters) {
+  YamlMap map(value, "a map of parameters of the genetic algorithm");
+  readParameters(map, geneticParameters(), false, parameters);
+  map.finish();
+}
+
+void readExpertSettings(const YamlValue& value, PairSettings& settings) {
   YamlMap map(value, "a map of settings for experts");
   readParameters(map, pairParameters(), true, settings);
   // Before cold and warm, whose own radii apply.
   readCommonRadii(map, settings.tracker);
-  if (auto v = map.take("cold")) read_genetic(*v, settings.tracker.cold);
-  if (auto v = map.take("warm")) read_genetic(*v, settings.tracker.warm);
+  if (auto v = map.take("cold")) readGeneticParameters(*v, settings.tracker.cold);
+  if (auto v = map.take("warm")) readGeneticParameters(*v, settings.tracker.warm);
   map.finish();
 }
 
 }  // namespace
 
-void readPairSettings(YamlMap& map, PairSettings& settings, const GeneticReader& read_genetic) {
+void readPairSettings(YamlMap& map, PairSettings& settings) {
   refuseExpertSettings(map);
   readParameters(map, pairParameters(), false, settings);
   if (auto v = map.take("effects")) readEffects(*v, settings.effects);
-  if (auto v = map.take("expert")) readExpertSettings(*v, settings, read_genetic);
-}
-
-void readGeneticParameters(const YamlValue& value, GeneticParameters& parameters) {
-  YamlMap map(value, "a map of parameters of the genetic algorithm");
-  readParameters(map, geneticParameters(), false, parameters);
-  map.finish();
+  if (auto v = map.take("expert")) readExpertSettings(*v, settings);
 }
 
 void validatePairSettings(const PairSettings& settings, const std::string& where) {

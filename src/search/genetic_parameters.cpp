@@ -7,9 +7,6 @@ namespace concave_distance {
 
 void GeneticParameters::validate(const std::string& where) const {
   requireAllowed(geneticParameters(), *this, where);
-  if (elite_count > population_size) {
-    detail::refuse(where, "elite_count", std::to_string(elite_count), "0 to population_size");
-  }
 }
 
 }  // namespace concave_distance

@@ -1,33 +1,20 @@
 #include "genetic_search.h"
 
 #include <algorithm>
-#include <limits>
 
 #include "mutation.h"
 #include "replacement.h"
-#include "search/grid/mesh_metric.h"
+#include "reproduction.h"
 
 namespace concave_distance {
 namespace {
 
-/// Mesh distances that the operators need: within the largest radius. Crowding compares distances of any
-/// length; it gets all of them where looking one up costs nothing.
-double distanceBound(const GeneticState& state) {
-  const bool has_matrices =
-      state.objective.gridA().metric().hasMatrices() && state.objective.gridB().metric().hasMatrices();
-  const NicheRadii& radii = state.radii;
-  return has_matrices && state.parameters.niching == NichingMethod::DeterministicCrowding
-             ? std::numeric_limits<double>::infinity()
-             : std::max({radii.sharing, radii.mating, radii.niche});
-}
-
-/// The places that survive the next generation, into work.elites.
+/// The places that survive the next generation, into work.elites: the best, and of every niche (greedy
+/// identification with sigma_n) the best as long as these take no more than half of the population: species
+/// conservation (Li, Balazs, Parks and Clarkson 2002). Sampling loses niches that expect less than one.
 void chooseElites(GeneticState& state) {
   SearchWorkspace& work = state.work;
-  findElites(work.census, work.places, state.parameters.elite_count, work.elites);
-  if (state.parameters.niching != NichingMethod::Sharing || !state.parameters.conserve_niches) {
-    return;
-  }
+  findElites(work.census, work.places, 1, work.elites);
   nichePeaks(work.census, state.radii.niche, work.places, work.metric, work.order, work.peaks);
   for (const std::uint32_t peak : work.peaks) {
     if (2 * work.elites.size() < state.parameters.population_size &&
@@ -39,7 +26,7 @@ void chooseElites(GeneticState& state) {
 
 void admitImmigrants(GeneticState& state) {
   SearchWorkspace& work = state.work;
-  for (std::uint32_t i = 0; i < state.parameters.random_immigrants && !state.outOfBudget(); ++i) {
+  for (std::uint32_t i = 0; i < state.parameters.random_immigrants && !state.isOver(); ++i) {
     TrialPoint point = randomTrialPoint(state.objective, state.engine);
     std::uint32_t place = 0;
     state.settle(point, place);
@@ -53,7 +40,7 @@ void startPopulation(GeneticState& state, const std::vector<TrialPoint>& inherit
   SearchWorkspace& work = state.work;
   const std::size_t size = state.parameters.population_size;
   const std::size_t kept = std::min(inherited.size(), size);
-  work.places.reset(distanceBound(state));
+  work.places.clear();
   work.population.assign(inherited.begin(), inherited.begin() + static_cast<std::ptrdiff_t>(kept));
   while (work.population.size() < size) {
     work.population.push_back(randomTrialPoint(state.objective, state.engine));
@@ -61,7 +48,7 @@ void startPopulation(GeneticState& state, const std::vector<TrialPoint>& inherit
   work.population_places.resize(size);
   std::size_t settled = 0;
   for (std::size_t i = 0; i < size; ++i) {
-    if (i > 0 && state.outOfBudget()) {
+    if (i > 0 && state.isOver()) {
       // Seats that nothing is left for go to those settled already, in turn.
       work.population[i] = work.population[i - settled];
       work.population_places[i] = work.population_places[i - settled];
@@ -78,7 +65,7 @@ void runGeneration(GeneticState& state) {
   SearchWorkspace& work = state.work;
   ++state.cost.generations;
   chooseElites(state);
-  state.breed();
+  breed(state);
   work.census.take(work.population_places, work.places.size());
   restoreElites(work.elites, work.places, work.census, work.population, work.population_places);
   admitImmigrants(state);
@@ -88,7 +75,7 @@ SearchCost geneticSearch(GeneticState& state, const std::vector<TrialPoint>& inh
   startPopulation(state, inherited);
   while (state.cost.generations < state.parameters.max_generations) {
     runGeneration(state);
-    if (state.outOfBudget()) break;
+    if (state.isOver()) break;
   }
   return state.cost;
 }

@@ -6,21 +6,37 @@
 namespace concave_distance {
 
 Descent::Descent(const PairObjective& objective, BasinMemory* memory, std::vector<std::uint64_t>& trail,
-                 SearchCost& cost, bool takes_long_steps)
+                 SearchCost& cost)
     : objective_(objective),
       graph_a_(objective.gridA().graph()),
       graph_b_(objective.gridB().graph()),
       cost_(cost),
-      takes_long_steps_(takes_long_steps),
       memory_(memory),
       trail_(trail) {}
 
-TrialPoint Descent::from(const TrialPoint& start) {
+void Descent::begin(const TrialPoint& start) {
   ++cost_.descents;
   point_ = start;
   joined_ = false;
   trail_.clear();
-  cost_.descents_joined += run() ? 1 : 0;
+  if (joinsKnownBasin()) return;
+  b_in_a_ = objective_.aFromB() * graph_b_.positions[point_.node_b.value];
+  point_.squared_distance = squaredDistanceBetween(graph_a_.positions[point_.node_a.value], b_in_a_);
+  ++cost_.evaluations;
+}
+
+bool Descent::run() {
+  if (joined_) return false;
+  moveA();
+  // When B has had its say and A does not move either, both are at their best.
+  do {
+    if (joinsKnownBasin()) return false;
+  } while (moveB() && !joinsKnownBasin() && moveA());
+  return !joined_;
+}
+
+const TrialPoint& Descent::end() {
+  cost_.descents_joined += joined_ ? 1 : 0;
   if (memory_ != nullptr && !trail_.empty()) {
     const std::uint32_t index = memory_->addMinimum(point_);
     for (const std::uint64_t pair : trail_) {
@@ -29,26 +45,6 @@ TrialPoint Descent::from(const TrialPoint& start) {
     }
   }
   return point_;
-}
-
-/// Returns true when it ended in a basin that was known.
-bool Descent::run() {
-  if (joinsKnownBasin()) {
-    return true;
-  }
-  b_in_a_ = objective_.aFromB() * graph_b_.positions[point_.node_b.value];
-  point_.squared_distance = squaredDistanceBetween(graph_a_.positions[point_.node_a.value], b_in_a_);
-  ++cost_.evaluations;
-  do {
-    moveA();
-    // When B has had its say and A does not move either, both are at their best.
-    do {
-      if (joinsKnownBasin()) {
-        return true;
-      }
-    } while (moveB() && !joinsKnownBasin() && moveA());
-  } while (!joined_ && moveOn());
-  return joined_;
 }
 
 void Descent::moveTo(const TrialPoint& closer) {
@@ -78,7 +74,7 @@ bool Descent::joinsKnownBasin() {
 /// Returns true when A's node has moved; then none of its neighbours is closer.
 bool Descent::moveA() {
   const NodeIndex start = point_.node_a;
-  const auto [reached, proven] = approach(objective_.gridA(), start, b_in_a_, takes_long_steps_, cost_);
+  const auto [reached, proven] = approach(graph_a_, start, b_in_a_, cost_);
   if (reached != start) {
     const double reached_distance = squaredDistanceBetween(graph_a_.positions[reached.value], b_in_a_);
     if (reached_distance < point_.squared_distance) {
@@ -111,8 +107,7 @@ bool Descent::stepA() {
 bool Descent::moveB() {
   const Eigen::Vector3d& a = graph_a_.positions[point_.node_a.value];
   const NodeIndex start = point_.node_b;
-  const auto [reached, proven] =
-      approach(objective_.gridB(), start, objective_.bFromA() * a, takes_long_steps_, cost_);
+  const auto [reached, proven] = approach(graph_b_, start, objective_.bFromA() * a, cost_);
   if (reached != start) {
     const Eigen::Vector3d reached_in_a = objective_.aFromB() * graph_b_.positions[reached.value];
     const double reached_distance = squaredDistanceBetween(a, reached_in_a);
@@ -146,7 +141,10 @@ bool Descent::stepB() {
 
 TrialPoint descend(const PairObjective& objective, const TrialPoint& start, BasinMemory* memory,
                    std::vector<std::uint64_t>& trail, SearchCost& cost) {
-  return Descent(objective, memory, trail, cost).from(start);
+  Descent descent(objective, memory, trail, cost);
+  descent.begin(start);
+  descent.run();
+  return descent.end();
 }
 
 }  // namespace concave_distance

@@ -1,7 +1,6 @@
 #include "mating.h"
 
 #include <cmath>
-#include <limits>
 
 #include "concave_distance/base/not_computed.h"
 #include "search/grid/mesh_metric.h"
@@ -9,18 +8,11 @@
 namespace concave_distance {
 namespace {
 
-Genes mateOnMesh(NodeIndex fitter, NodeIndex other, const Shares& shares, MeshMetricQuery& query,
-                 double path_bound) {
-  if (fitter == other) return {fitter, other};
-  if (query.metric().hasMatrices()) {
-    path_bound = std::numeric_limits<double>::infinity();
-  }
-  const double length = query.distanceWithin(fitter, other, path_bound);
-  if (!std::isfinite(length)) {
-    return {fitter, other};
-  }
-  return {query.nodeTowards(fitter, other, shares.first * length, path_bound),
-          query.nodeTowards(other, fitter, (1.0 - shares.second) * length, path_bound)};
+Genes mateOnMesh(NodeIndex fitter, NodeIndex other, const Shares& shares, const MeshMetric& metric) {
+  const double length = metric.distance(fitter, other);
+  if (fitter == other || !std::isfinite(length)) return {fitter, other};
+  return {metric.nodeTowards(fitter, other, shares.first * length),
+          metric.nodeTowards(other, fitter, (1.0 - shares.second) * length)};
 }
 
 }  // namespace
@@ -60,13 +52,13 @@ Children childrenOf(const Genes& a, const Genes& b) {
   return {{a.first, b.first, kNotComputed}, {a.second, b.second, kNotComputed}};
 }
 
-Children mate(const TrialPoint& parent_1, const TrialPoint& parent_2, PairMetric& metric, double path_bound,
+Children mate(const TrialPoint& parent_1, const TrialPoint& parent_2, PairMetric& metric,
               RandomEngine& engine) {
   const Couple couple(parent_1, parent_2);
-  const Genes a = mateOnMesh(couple.fitter.node_a, couple.other.node_a, couple.drawShares(engine),
-                             metric.onA(), path_bound);
-  const Genes b = mateOnMesh(couple.fitter.node_b, couple.other.node_b, couple.drawShares(engine),
-                             metric.onB(), path_bound);
+  const Genes a =
+      mateOnMesh(couple.fitter.node_a, couple.other.node_a, couple.drawShares(engine), metric.onA());
+  const Genes b =
+      mateOnMesh(couple.fitter.node_b, couple.other.node_b, couple.drawShares(engine), metric.onB());
   return childrenOf(a, b);
 }
 

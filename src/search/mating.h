@@ -57,10 +57,9 @@ Children childrenOf(const Genes& a, const Genes& b);
 /// w], the second with t in [w, 1], w = fitterShare(). So the first prefers the fitter parent as the thesis
 /// has it, and the two together reach all that lies between the parents. The first child's node is the last
 /// within t times the path's length of the fitter parent's (so within the radius w times the length), the
-/// second's the last within (1 - t) times it of the other parent's. Without a path (between shells, and
-/// beyond the matrices also when it is longer than `path_bound`, metres) that gene is copied, the first child
-/// from the fitter parent, the second from the other.
-Children mate(const TrialPoint& parent_1, const TrialPoint& parent_2, PairMetric& metric, double path_bound,
+/// second's the last within (1 - t) times it of the other parent's. Without a path (between shells) that gene
+/// is copied, the first child from the fitter parent, the second from the other.
+Children mate(const TrialPoint& parent_1, const TrialPoint& parent_2, PairMetric& metric,
               RandomEngine& engine);
 
 /// Exchange of genes: the first child has `parent_1`'s node on A and `donor_1`'s on B, the second `donor_2`'s

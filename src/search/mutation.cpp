@@ -12,23 +12,20 @@ NodeIndex randomNode(const NodeGraph& graph, RandomEngine& engine) {
   return NodeIndex{uniformIndex(engine, static_cast<std::uint32_t>(graph.nodeCount()))};
 }
 
-NodeIndex moveGene(NodeIndex node, double radius, MeshMetricQuery& query, RandomEngine& engine) {
-  const NodeGraph& graph = query.metric().graph();
+NodeIndex moveGene(NodeIndex node, double radius, const MeshMetric& metric, RandomEngine& engine) {
+  const NodeGraph& graph = metric.graph();
   const NodeIndex goal = randomNode(graph, engine);
   const double share = uniformUnit(engine);
   if (graph.shell[goal.value] != graph.shell[node.value]) {
     return goal;
   }
-  if (!query.metric().hasMatrices()) {
-    return radius < kInfinity ? query.nodeInBall(node, radius, share) : goal;
-  }
   if (node == goal) {
     return node;
   }
   // An edge longer than the path, so that its last node has its share of the draws too; 1 - share is never 0.
-  const double length = query.distanceWithin(node, goal, kInfinity) +
-                        static_cast<double>(graph.edges.row(goal.value)[0].length);
-  return query.nodeTowards(node, goal, (1.0 - share) * std::min(length, radius), kInfinity);
+  const double length =
+      metric.distance(node, goal) + static_cast<double>(graph.edges.row(goal.value)[0].length);
+  return metric.nodeTowards(node, goal, (1.0 - share) * std::min(length, radius));
 }
 
 TrialPoint mutate(const TrialPoint& point, PairMetric& metric, RandomEngine& engine, double radius) {

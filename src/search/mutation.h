@@ -11,10 +11,8 @@ namespace concave_distance {
 NodeIndex randomNode(const NodeGraph& graph, RandomEngine& engine);
 
 /// Moves a node on a shortest path towards a random node of the whole body by a uniformly random length
-/// within `radius`, metres; a node drawn on another shell is taken itself. Beyond the matrices no path is
-/// searched across the body: with a finite radius the result is a random node within it, without one the node
-/// drawn.
-NodeIndex moveGene(NodeIndex node, double radius, MeshMetricQuery& query, RandomEngine& engine);
+/// within `radius`, metres; a node drawn on another shell is taken itself.
+NodeIndex moveGene(NodeIndex node, double radius, const MeshMetric& metric, RandomEngine& engine);
 
 /// Random move (Carretero, sec. 3.2.2.b, 3.3.2.c) of gene A, gene B or both, with equal chances. The result's
 /// distance is not computed. @param radius of moveGene(); infinite: up to the whole path

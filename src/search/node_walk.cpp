@@ -4,10 +4,6 @@
 #include <array>
 #include <cmath>
 #include <cstring>
-#include <vector>
-
-#include "search/grid/node_graph.h"
-#include "search/grid/node_levels.h"
 
 namespace concave_distance {
 namespace {
@@ -73,22 +69,20 @@ float provenDifference(float squared_distance, float target_norm) {
   return 0x1.0p-19F * distance * reach + 0x1.0p-43F * reach * reach + 0x1.0p-18F * squared_distance;
 }
 
-/// Where a walk in float has come to.
+/// Where a walk in float has ended.
 struct Place {
   std::uint32_t node;
   std::int32_t value;  ///< key of its squared distance
-  bool is_minimum;     ///< no neighbour looks closer
-  std::int32_t least;  ///< key of the closest neighbour, of a minimum
+  std::int32_t least;  ///< key of the closest neighbour
 };
 
-/// Walks while a neighbour looks closer to `local` (relative to the graph's origin), `most_steps` at the
-/// most. The values fall strictly, so it ends.
-Place walk(const NodeGraph& graph, NodeIndex node, const Eigen::Vector3f& local, std::uint32_t most_steps,
-           SearchCost& cost) {
+/// Walks while a neighbour looks closer to `local` (relative to the graph's origin). The values fall
+/// strictly, so it ends.
+Place walk(const NodeGraph& graph, NodeIndex node, const Eigen::Vector3f& local, SearchCost& cost) {
   const Eigen::Vector3f start =
       (graph.positions[node.value] - graph.neighbourhood_origin).cast<float>() - local;
-  Place place{node.value, bitsOf(start.squaredNorm()) & ~kSeatMask, false, 0};
-  for (std::uint32_t steps = 0; steps < most_steps; ++steps) {
+  Place place{node.value, bitsOf(start.squaredNorm()) & ~kSeatMask, 0};
+  while (true) {
     const Neighbourhood* seats = &graph.neighbourhoods[place.node];
     std::int32_t least = closestSeat(*seats, local.x(), local.y(), local.z());
     std::uint32_t closest = seats->to[static_cast<std::size_t>(least & kSeatMask)];
@@ -104,7 +98,6 @@ Place walk(const NodeGraph& graph, NodeIndex node, const Eigen::Vector3f& local,
     }
     least &= ~kSeatMask;
     if (!(least < place.value)) {
-      place.is_minimum = true;
       place.least = least;
       return place;
     }
@@ -112,57 +105,13 @@ Place walk(const NodeGraph& graph, NodeIndex node, const Eigen::Vector3f& local,
     place.node = closest;
     ++cost.descent_steps;
   }
-  return place;
-}
-
-/// Steps on one level after which a walk goes on with longer ones.
-constexpr std::uint32_t kStepsOnALevel = 8;
-constexpr std::uint32_t kNoLimit = 0xffffffffU;
-
-Eigen::Vector3f localTarget(const NodeGraph& graph, const Eigen::Vector3d& target) {
-  return (target - graph.neighbourhood_origin).cast<float>();
-}
-
-/// From `node` over the levels from the finest on, as far up as the walk is long, and down again. A valley
-/// that the walk starts in is not stepped over: only who has gone kStepsOnALevel steps without meeting a
-/// bottom takes longer ones. Returns a node of the graph.
-NodeIndex walkInLongSteps(const std::vector<NodeLevel>& levels, NodeIndex node, const Eigen::Vector3d& target,
-                          SearchCost& cost) {
-  std::size_t level = 0;
-  for (bool is_minimum = false; !is_minimum && level < levels.size(); ++level) {
-    const NodeGraph& graph = levels[level].graph;
-    const std::uint32_t most_steps = level + 1 < levels.size() ? kStepsOnALevel : kNoLimit;
-    const Place place =
-        walk(graph, levels[level].node_of_finer[node.value], localTarget(graph, target), most_steps, cost);
-    node = NodeIndex{place.node};
-    is_minimum = place.is_minimum;
-  }
-  while (level > 0) {
-    // A coarse node is one of the next finer graph.
-    --level;
-    node = levels[level].finer_node[node.value];
-    if (level == 0) break;
-    const NodeGraph& graph = levels[level - 1].graph;
-    node = NodeIndex{walk(graph, node, localTarget(graph, target), kNoLimit, cost).node};
-  }
-  return node;
 }
 
 }  // namespace
 
-Approach approach(const BodyGrid& grid, NodeIndex node, const Eigen::Vector3d& target, bool in_long_steps,
-                  SearchCost& cost) {
-  const NodeGraph& graph = grid.graph();
-  const std::vector<NodeLevel>& levels = grid.nodes().levels.levels;
-  const Eigen::Vector3f local = localTarget(graph, target);
-  const bool has_levels = in_long_steps && !levels.empty();
-  Place place = walk(graph, node, local, has_levels ? kStepsOnALevel : kNoLimit, cost);
-  if (!place.is_minimum) {
-    const NodeIndex far = walkInLongSteps(levels, NodeIndex{place.node}, target, cost);
-    const Place arrived = walk(graph, far, local, kNoLimit, cost);
-    // Coarse steps may lead to a worse valley; then on from where the fine ones stopped.
-    place = arrived.value < place.value ? arrived : walk(graph, NodeIndex{place.node}, local, kNoLimit, cost);
-  }
+Approach approach(const NodeGraph& graph, NodeIndex node, const Eigen::Vector3d& target, SearchCost& cost) {
+  const Eigen::Vector3f local = (target - graph.neighbourhood_origin).cast<float>();
+  const Place place = walk(graph, node, local, cost);
   const float nearest = valueOf(place.least);
   return {NodeIndex{place.node}, nearest - valueOf(place.value) > provenDifference(nearest, local.norm())};
 }

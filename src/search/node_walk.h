@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 
 #include "concave_distance/search/trial_point.h"
-#include "search/grid/body_grid.h"
+#include "search/grid/node_graph.h"
 
 namespace concave_distance {
 
@@ -14,8 +14,6 @@ struct Approach {
 };
 
 /// Walks in float to where no neighbour looks closer to `target` (metres, in the graph's frame).
-/// @param in_long_steps on graphs with levels (SearchNodes::levels) steps grow with the length of the walk
-Approach approach(const BodyGrid& grid, NodeIndex node, const Eigen::Vector3d& target, bool in_long_steps,
-                  SearchCost& cost);
+Approach approach(const NodeGraph& graph, NodeIndex node, const Eigen::Vector3d& target, SearchCost& cost);
 
 }  // namespace concave_distance

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <optional>
-
 #include "concave_distance/mesh/body_mesh.h"
 #include "concave_distance/search/trial_point.h"
 #include "search/grid/body_grid.h"
@@ -9,24 +7,26 @@
 
 namespace concave_distance {
 
-/// Delta of two trial points: the sum of both mesh distances (Carretero, eq. (4.5)). One per thread. The
-/// bodies' metrics are made at its first use.
+/// Delta of two trial points: the sum of both mesh distances (Carretero, eq. (4.5)). The bodies' metrics are
+/// made at its first use.
 class PairMetric {
  public:
-  PairMetric(const BodyMesh& a, const BodyMesh& b) : a_{&a, {}}, b_{&b, {}} {}
-  /// Delta when at most `bound`, else infinity. Metres.
-  double distanceWithin(const TrialPoint& x, const TrialPoint& y, double bound);
-  MeshMetricQuery& onA() { return a_.query(); }
-  MeshMetricQuery& onB() { return b_.query(); }
+  PairMetric(const BodyMesh& a, const BodyMesh& b) : a_{&a}, b_{&b} {}
+  /// Metres; infinity between shells.
+  double distance(const TrialPoint& x, const TrialPoint& y) {
+    return onA().distance(x.node_a, y.node_a) + onB().distance(x.node_b, y.node_b);
+  }
+  const MeshMetric& onA() { return a_.made(); }
+  const MeshMetric& onB() { return b_.made(); }
 
  private:
   struct Side {
     const BodyMesh* body;
-    std::optional<MeshMetricQuery> made;
+    const MeshMetric* metric = nullptr;
 
-    MeshMetricQuery& query() {
-      if (!made) made.emplace(gridOf(*body).metric());
-      return *made;
+    const MeshMetric& made() {
+      if (metric == nullptr) metric = &gridOf(*body).metric();
+      return *metric;
     }
   };
   Side a_;

@@ -39,7 +39,7 @@ SearchPreparation searchPreparationOf(const BodyMesh& body) {
   }
   if (const MeshMetric* metric = grid.metricIfMade()) {
     found.is_complete = true;
-    found.has_matrices = metric->hasMatrices();
+    found.is_metric_thinned = metric->isThinned();
   }
   return found;
 }

@@ -1,14 +1,14 @@
 #include "reproduction.h"
 
-#include <numeric>
-
 #include "mating.h"
 #include "mutation.h"
-#include "search/selection.h"
+#include "selection.h"
 #include "sharing.h"
 
 namespace concave_distance {
 namespace {
+
+constexpr double kSharingExponent = 1.0;  // alpha_s
 
 const TrialPoint& anyMinimumMet(GeneticState& state) {
   const std::vector<TrialPoint>& minima = state.work.basins.minima();
@@ -28,7 +28,7 @@ Children mateCouple(GeneticState& state, const TrialPoint& parent_1, const Trial
     return exchangeGenes(parent_1, donor_1, parent_2, donor_2);
   }
   state.cost.children += 2;
-  return state.mate(parent_1, parent_2);
+  return mate(parent_1, parent_2, work.metric, state.engine);
 }
 
 /// The partner of the first parent: its mate if that stands on another place, else one of the population
@@ -50,16 +50,15 @@ void mateFirstCouple(GeneticState& state) {
   const TrialPoint first = work.population[work.selected[0]];
   const TrialPoint second = partnerElsewhere(state);
   const bool exchanges = uniformUnit(state.engine) < state.parameters.exchange_probability;
-  const Children children =
-      exchanges ? exchangeGenes(first, second, first, second) : state.mate(first, second);
+  const Children children = exchanges ? exchangeGenes(first, second, first, second)
+                                      : mate(first, second, work.metric, state.engine);
   work.offspring[0] = children.first;
   work.offspring[1] = children.second;
   work.offspring_is_new[0] = work.offspring_is_new[1] = true;
   state.cost.children += 2;
 }
 
-}  // namespace
-
+/// Fills work.weights: every individual's potential fitness, divided by work.niche_counts of its place.
 void weigh(GeneticState& state) {
   SearchWorkspace& work = state.work;
   const Census& census = work.census;
@@ -74,29 +73,17 @@ void weigh(GeneticState& state) {
   }
 }
 
+/// Selects by fitness, shared among niches, into work.selected.
 void selectParents(GeneticState& state) {
   SearchWorkspace& work = state.work;
-  nicheCounts(work.census, work.places, work.metric, state.radii.sharing, state.parameters.sharing_exponent,
+  nicheCounts(work.census, work.places, work.metric, state.radii.sharing, kSharingExponent,
               work.niche_counts);
   weigh(state);
   stochasticUniversalSampling(work.weights, state.parameters.population_size, state.engine, work.selected);
   shuffle(work.selected, state.engine);
 }
 
-void drawParents(GeneticState& state) {
-  std::vector<std::uint32_t>& selected = state.work.selected;
-  selected.resize(state.parameters.population_size);
-  std::iota(selected.begin(), selected.end(), 0U);
-  shuffle(selected, state.engine);
-}
-
-void pairUp(GeneticState& state) {
-  SearchWorkspace& work = state.work;
-  if (!state.parameters.mating_restriction) return;
-  restrictMating(work.selected, work.population_places, state.radii.mating, work.places, work.metric,
-                 state.engine);
-}
-
+/// Makes work.offspring of the couples of those selected.
 void mateCouples(GeneticState& state) {
   SearchWorkspace& work = state.work;
   work.offspring.clear();
@@ -110,8 +97,7 @@ void mateCouples(GeneticState& state) {
   for (std::size_t i = 0; i + 1 < work.offspring.size(); i += 2) {
     // Parents on one place have children on it: nothing to mate.
     if (uniformUnit(state.engine) < state.parameters.crossover_probability &&
-        work.offspring_places[i] != work.offspring_places[i + 1] && state.mayMate(i) &&
-        !state.outOfBudget()) {
+        work.offspring_places[i] != work.offspring_places[i + 1] && !state.isOver()) {
       const Children children = mateCouple(state, work.offspring[i], work.offspring[i + 1]);
       work.offspring[i] = children.first;
       work.offspring[i + 1] = children.second;
@@ -134,6 +120,7 @@ void mutateOffspring(GeneticState& state) {
   }
 }
 
+/// Settles new individuals.
 void settleOffspring(GeneticState& state) {
   SearchWorkspace& work = state.work;
   bool may_stop = state.couples == Couples::AsDrawn;
@@ -141,7 +128,7 @@ void settleOffspring(GeneticState& state) {
     if (!work.offspring_is_new[i]) {
       continue;
     }
-    if (may_stop && state.outOfBudget()) {
+    if (may_stop && state.isOver()) {
       const std::uint32_t parent = work.selected[i];
       work.offspring[i] = work.population[parent];
       work.offspring_places[i] = work.population_places[parent];
@@ -153,29 +140,18 @@ void settleOffspring(GeneticState& state) {
   }
 }
 
-void compete(GeneticState& state, Contest contest) {
-  SearchWorkspace& work = state.work;
-  for (std::size_t i = 0; i + 1 < work.offspring.size(); i += 2) {
-    const auto parent = [&](std::size_t k) {
-      return Contestant{work.population[work.selected[k]], work.population_places[work.selected[k]]};
-    };
-    const auto child = [&](std::size_t k) { return Contestant{work.offspring[k], work.offspring_places[k]}; };
-    Contestant first = parent(i);
-    Contestant second = parent(i + 1);
-    contest(first, second, child(i), child(i + 1), work.places, work.metric);
-    work.offspring[i] = first.point;
-    work.offspring_places[i] = first.place;
-    work.offspring[i + 1] = second.point;
-    work.offspring_places[i + 1] = second.place;
-  }
-}
+}  // namespace
 
-void takeSeats(GeneticState& state, const std::vector<std::uint32_t>& seats) {
+void breed(GeneticState& state) {
+  selectParents(state);
   SearchWorkspace& work = state.work;
-  for (std::size_t i = 0; i < work.offspring.size(); ++i) {
-    work.population[seats[i]] = work.offspring[i];
-    work.population_places[seats[i]] = work.offspring_places[i];
-  }
+  restrictMating(work.selected, work.population_places, state.radii.mating, work.places, work.metric,
+                 state.engine);
+  mateCouples(state);
+  mutateOffspring(state);
+  settleOffspring(state);
+  work.population.swap(work.offspring);
+  work.population_places.swap(work.offspring_places);
 }
 
 }  // namespace concave_distance

@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "basin_memory.h"
-#include "niche_identification.h"
 #include "pair_metric.h"
 #include "trial_point_table.h"
 
@@ -39,7 +38,6 @@ struct SearchWorkspace {
   std::vector<TrialPoint> population;
   std::vector<std::uint64_t> trail;
   std::vector<std::uint32_t> order;
-  std::vector<IdentifiedNiche> niches;
 
   TrialPointTable places;
   std::vector<std::uint32_t> population_places;  ///< of each individual

@@ -18,9 +18,8 @@ double potentialFitness(double squared_distance, double epsilon) {
   return denominator > 1.0 / kTouchingFitness ? 1.0 / denominator : kTouchingFitness;
 }
 
-double fitnessEpsilon(const GeneticParameters& parameters, const BodyMesh& a, const BodyMesh& b) {
-  return parameters.fitness_epsilon *
-         std::max(gridOf(a).nodes().max_edge_length, gridOf(b).nodes().max_edge_length);
+double fitnessEpsilon(const BodyMesh& a, const BodyMesh& b) {
+  return std::max(gridOf(a).nodes().max_edge_length, gridOf(b).nodes().max_edge_length);
 }
 
 double sharingValue(double delta, double radius, double exponent) {

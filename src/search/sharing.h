@@ -3,7 +3,6 @@
 #include <vector>
 
 #include "concave_distance/mesh/body_mesh.h"
-#include "concave_distance/search/genetic_parameters.h"
 #include "trial_point_table.h"
 
 namespace concave_distance {
@@ -15,10 +14,10 @@ namespace concave_distance {
 ///        1e200, which does just that.
 double potentialFitness(double squared_distance, double epsilon);
 
-/// epsilon of potentialFitness() in metres: parameters.fitness_epsilon of the longer of both grids' maximum
-/// edge lengths. For the selection of parents and for what a population inherits alike: (4.4) and (6.7) of
-/// Carretero speak of the same potential fitness.
-double fitnessEpsilon(const GeneticParameters& parameters, const BodyMesh& a, const BodyMesh& b);
+/// epsilon of potentialFitness() in metres: the longer of both grids' maximum edge lengths, because smaller
+/// differences of distance are the grids'. For the selection of parents and for what a population inherits
+/// alike: (4.4) and (6.7) of Carretero speak of the same potential fitness.
+double fitnessEpsilon(const BodyMesh& a, const BodyMesh& b);
 
 /// S of Carretero, eq. (4.3): 1 - (delta / radius)^exponent below the radius, else 0.
 double sharingValue(double delta, double radius, double exponent);

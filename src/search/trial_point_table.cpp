@@ -3,11 +3,11 @@
 #include <algorithm>
 
 namespace concave_distance {
-void TrialPointTable::reset(double bound) {
+
+void TrialPointTable::clear() {
   place_of_pair_.clear();
   points_.clear();
   delta_.clear();
-  bound_ = bound;
 }
 
 void TrialPointTable::shrink(std::size_t compared) {
@@ -15,7 +15,7 @@ void TrialPointTable::shrink(std::size_t compared) {
   if (delta_.capacity() <= kept) {
     return;
   }
-  reset(bound_);
+  clear();
   std::vector<float>().swap(delta_);
   delta_.reserve(kept);
 }
@@ -33,10 +33,8 @@ std::uint32_t TrialPointTable::placeOf(const TrialPoint& point) {
 }
 
 double TrialPointTable::measure(std::uint32_t i, std::uint32_t j, PairMetric& metric) {
-  // Measured from the younger place, which is usually compared with many older ones at once: without matrices
-  // one ball around it serves them all. Rounded as the kept ones are: a distance does not depend on the order
-  // in which places were met.
-  const auto measured = static_cast<float>(metric.distanceWithin(points_[i], points_[j], bound_));
+  // Rounded as the kept ones are: a distance does not depend on the order in which places were met.
+  const auto measured = static_cast<float>(metric.distance(points_[i], points_[j]));
   if (i < kPlacesWithDistances) {
     delta_[std::size_t{i} * (i - 1) / 2 + j] = measured;
   }

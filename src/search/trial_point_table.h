@@ -16,8 +16,7 @@ namespace concave_distance {
 /// with all work on places, and look up each distance once a run.
 class TrialPointTable {
  public:
-  /// Forgets all. Distances beyond `bound` (metres) will be infinite.
-  void reset(double bound);
+  void clear();
   /// Room for so many places, and for the distances between the first `compared` of them.
   void reserve(std::size_t places, std::size_t compared) {
     points_.reserve(places);
@@ -29,7 +28,7 @@ class TrialPointTable {
   std::uint32_t placeOf(const TrialPoint& point);
   const TrialPoint& point(std::uint32_t place) const { return points_[place]; }
   std::size_t size() const { return points_.size(); }
-  /// Delta of two places (Carretero, eq. (4.5)), metres; infinite beyond the bound and between shells.
+  /// Delta of two places (Carretero, eq. (4.5)), metres; infinite between shells.
   double delta(std::uint32_t i, std::uint32_t j, PairMetric& metric) {
     if (i == j) {
       return 0.0;
@@ -56,7 +55,6 @@ class TrialPointTable {
   PairTable place_of_pair_{6};
   std::vector<TrialPoint> points_;
   std::vector<float> delta_;  ///< lower triangle, row by row; negative: not computed yet
-  double bound_ = 0.0;
 };
 
 /// How many individuals stand where: the places present in a population.

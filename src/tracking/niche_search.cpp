@@ -67,14 +67,14 @@ const std::vector<TrialPoint>& NicheSearch::propose(const PairFrame& frame,
   if (run.warm) {
     const std::uint32_t limit_of_inherited =
         run.population > 0 ? inheritedOf(run.population, parameters) : parameters.inherited_limit;
-    inherit(known, {parameters.inherited_per_niche, limit_of_inherited},
-            fitnessEpsilon(genetic, frame.a, frame.b), inherited_, scratch_);
+    inherit(known, {parameters.inherited_per_niche, limit_of_inherited}, fitnessEpsilon(frame.a, frame.b),
+            inherited_, scratch_);
     genetic.population_size =
         run.population > 0 ? run.population : wholePopulation(inherited_.size(), parameters);
   }
   GeneticState state(objective, genetic, radii(as_warm), engine, workspace_, &limit,
                      run.breeds ? Couples::AtLeastOne : Couples::AsDrawn);
-  const SearchCost spent = search_ ? search_(state, inherited_, as_warm) : geneticSearch(state, inherited_);
+  const SearchCost spent = geneticSearch(state, inherited_);
   cost += spent;
   const std::vector<TrialPoint>& minima = workspace_.basins.minima();
   found_.assign(minima.begin() + static_cast<std::ptrdiff_t>(known_minima), minima.end());

@@ -2,9 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "concave_distance/base/work_limit.h"
@@ -64,17 +62,12 @@ class NicheSearch {
   /// @param work of the other stages, in evaluations of the search
   void earn(std::size_t found, double work, double share);
 
-  /// Stands for geneticSearch() in experiments; it is told whether the warm parameters apply.
-  using Search = std::function<SearchCost(GeneticState&, const std::vector<TrialPoint>&, bool as_warm)>;
-  void replaceSearch(Search search) { search_ = std::move(search); }
-
   SearchWorkspace& workspace() { return workspace_; }
   NodeRings& rings() { return rings_; }
   const NicheRadii& radii(bool warm) const { return warm ? warm_radii_ : cold_radii_; }
   void restart() { couples_ = 1; }
 
  private:
-  Search search_;  ///< empty: geneticSearch()
   bool prepared_ = false;
   NicheRadii cold_radii_{};
   NicheRadii warm_radii_{};

@@ -56,7 +56,7 @@ void admitNodePair(const TrialPoint& pair, const PairFrame& frame, double niche_
                    PairMetric& metric, NicheArchive& archive) {
   const WitnessPair witness = nodeWitness(frame, pair);
   for (NicheRecord& record : archive.records()) {
-    if (metric.distanceWithin(record.niche.node_pair, pair, niche_radius) > niche_radius) continue;
+    if (metric.distance(record.niche.node_pair, pair) > niche_radius) continue;
     if (witness.squared_distance < record.niche.witness.squared_distance) {
       record.niche.node_pair = pair;
       placeRecord(record, frame, witness);
@@ -132,8 +132,7 @@ void uniteWithinRadius(double niche_radius, PairMetric& metric, NicheArchive& ar
   for (std::size_t i = 0; i < records.size(); ++i) {
     std::size_t k = i + 1;
     while (k < records.size()) {
-      if (metric.distanceWithin(records[i].niche.node_pair, records[k].niche.node_pair, niche_radius) <=
-          niche_radius) {
+      if (metric.distance(records[i].niche.node_pair, records[k].niche.node_pair) <= niche_radius) {
         archive.unite(i, k, events);
         archive.settle();
         k = i;

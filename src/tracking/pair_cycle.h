@@ -46,7 +46,6 @@ class PairCycle {
   void holdSearch(bool is_held) { stages_.holdSearch(is_held); }
   void setParameters(const TrackerParameters& parameters);
 
-  NicheSearch& search() { return stages_.search(); }
   const std::string& name() const { return stages_.name(); }
   const TrackerParameters& parameters() const { return stages_.parameters(); }
 

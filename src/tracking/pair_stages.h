@@ -72,7 +72,6 @@ class PairStages {
   const PairFrame& frame() const { return *frame_; }
   const DistanceProof& proof() const { return proof_; }
   DistanceProof& proof() { return proof_; }
-  NicheSearch& search() { return meshes_.search; }
   /// Returns the niches that are reported.
   std::vector<NicheRecord>& records() { return isRound() ? round_.records() : meshes_.archive.records(); }
   /// Returns the nearest of all minima at a level that proves nothing, or nullptr.

@@ -6,9 +6,10 @@ namespace concave_distance {
 
 // Chosen on every second of the benchmark pairs and checked on the others (doc/results/tuning.md).
 TrackerParameters::TrackerParameters() {
-  cold.niching = NichingMethod::DeterministicCrowding;
-  cold.mating_restriction = false;
-  cold.population_size = 300;
+  cold.population_size = 60;
+  cold.max_generations = 80;
+  cold.crossover_probability = 1.0;
+  cold.exchange_probability = 1.0;
   cold.random_immigrants = 20;
   warm.population_size = 16;
   warm.max_generations = 1;

@@ -323,7 +323,6 @@ TEST_F(SceneFile, WhatIsAllowedIsSaidInWords) {
   expectExpertRefused("warm", "[]", "a map of parameters");
   expectGeneticRefused("population_size", "51", "an even number 2 or more");
   expectGeneticRefused("mutation_probability", "-0.1", "from 0 to 1, or auto");
-  expectGeneticRefused("niching", "clearing", "sharing, deterministic_crowding");
 }
 
 TEST_F(SceneFile, SettingsForExpertsAreRefusedAmongTheOthers) {
@@ -362,31 +361,27 @@ TEST_F(SceneFile, SettingsThatDoNotGoTogetherAreRefused) {
                     "  - {name: box, box: {size: [1, 1, 1]}}\ndefaults: {warning_distance: 1}\npairs:\n"
                     "  - {between: [box, ball], cutoff: 0.5}\n",
                 "scene.yaml:8, pairs[0]", "beyond the cutoff", "raise cutoff");
-  EXPECT_TRUE(
-      mentions(refusal("defaults: {expert: {cold: {population_size: 2, elite_count: 3}}}\n"), "elite_count"));
 }
 
 TEST_F(SceneFile, EverySettingReachesItsParameter) {
-  const Scene scene = load(
-      kBall +
-      "  - {name: box, box: {size: [1, 1, 1]}, max_edge_length: 100}\n"
-      "pairs:\n"
-      "  - between: [box, ball]\n"
-      "    accuracy: nodes\n    cutoff: 2\n    least_prominence: 0.25\n"
-      "    largest_niche_count: 7\n    hidden: true\n    seed: "
-      "18446744073709551615\n"
-      "    warning_distance: 0.125\n    warning_hysteresis: 0.5\n"
-      "    expert:\n"
-      "      inherited_per_niche: 4.5\n      inherited_limit: 11\n      random_starts: 5\n"
-      "      search_share: 0.5\n      keep_through_material: true\n"
-      "      sharing_radius: 0.3\n      mating_radius: 0.4\n      niche_radius: 0.2\n"
-      "      cold:\n        population_size: 80\n        max_generations: 9\n"
-      "        crossover_probability: 0.75\n        mutation_probability: 0.0625\n"
-      "        exchange_probability: 0.25\n"
-      "        niching: sharing\n        sharing_exponent: 10\n        mating_restriction: true\n"
-      "        elite_count: 2\n        sharing_radius: auto\n        fitness_epsilon: 0\n"
-      "        random_immigrants: 4\n        conserve_niches: false\n        evaluation_limit: 5000000000\n"
-      "      warm: {population_size: 10, niching: deterministic_crowding}\n");
+  const Scene scene =
+      load(kBall +
+           "  - {name: box, box: {size: [1, 1, 1]}, max_edge_length: 100}\n"
+           "pairs:\n"
+           "  - between: [box, ball]\n"
+           "    accuracy: nodes\n    cutoff: 2\n    least_prominence: 0.25\n"
+           "    largest_niche_count: 7\n    hidden: true\n    seed: "
+           "18446744073709551615\n"
+           "    warning_distance: 0.125\n    warning_hysteresis: 0.5\n"
+           "    expert:\n"
+           "      inherited_per_niche: 4.5\n      inherited_limit: 11\n      random_starts: 5\n"
+           "      search_share: 0.5\n      keep_through_material: true\n"
+           "      sharing_radius: 0.3\n      mating_radius: 0.4\n      niche_radius: 0.2\n"
+           "      cold:\n        population_size: 80\n        max_generations: 9\n"
+           "        crossover_probability: 0.75\n        mutation_probability: 0.0625\n"
+           "        exchange_probability: 0.25\n"
+           "        sharing_radius: auto\n        random_immigrants: 4\n"
+           "      warm: {population_size: 10}\n");
   ASSERT_EQ(allPairs(scene).size(), 1U);
   const PairSettings settings = allPairs(scene)[0].settings;
   const TrackerParameters& tracker = settings.tracker;
@@ -409,21 +404,13 @@ TEST_F(SceneFile, EverySettingReachesItsParameter) {
   EXPECT_EQ(cold.crossover_probability, 0.75);
   EXPECT_EQ(cold.exchange_probability, 0.25);
   EXPECT_EQ(cold.mutation_probability, 0.0625);
-  EXPECT_EQ(cold.niching, NichingMethod::Sharing);
-  EXPECT_EQ(cold.sharing_exponent, 10.0);
-  EXPECT_TRUE(cold.mating_restriction);
-  EXPECT_EQ(cold.elite_count, 2U);
-  EXPECT_EQ(cold.fitness_epsilon, 0.0);
   EXPECT_EQ(cold.random_immigrants, 4U);
-  EXPECT_FALSE(cold.conserve_niches);
-  EXPECT_EQ(cold.evaluation_limit, 5000000000U);
   EXPECT_EQ(cold.sharing_radius, std::nullopt);
   EXPECT_EQ(cold.mating_radius, 0.4);
   EXPECT_EQ(tracker.warm.sharing_radius, 0.3);
   EXPECT_EQ(tracker.warm.mating_radius, 0.4);
   EXPECT_EQ(tracker.warm.niche_radius, 0.2);
   EXPECT_EQ(tracker.warm.population_size, 10U);
-  EXPECT_EQ(tracker.warm.niching, NichingMethod::DeterministicCrowding);
   EXPECT_EQ(tracker.warm.max_generations, TrackerParameters().warm.max_generations);
 }
 

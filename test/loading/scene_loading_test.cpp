@@ -51,7 +51,7 @@ std::string fingerprint(const Scene& scene) {
   std::string text;
   for (const SceneBody& body : scene.bodies) {
     text += body.name + " " + body.source + " " + std::to_string(gridOf(*body.mesh).graph().nodeCount()) +
-            " " + (gridOf(*body.mesh).metric().hasMatrices() ? "matrices" : "on demand") + " " +
+            " " + (gridOf(*body.mesh).metric().isThinned() ? "thinned" : "whole") + " " +
             body.repair.summary() + "\n";
     for (const Eigen::Vector3d& p : gridOf(*body.mesh).nodes().grid.vertices()) {
       text.append(reinterpret_cast<const char*>(p.data()), 3 * sizeof(double));
@@ -91,8 +91,8 @@ TEST_F(SceneLoading, IsTheSameWhateverTheNumberOfThreads) {
     const tbb::global_control many(tbb::global_control::max_allowed_parallelism, 8);
     EXPECT_EQ(fingerprint(load(yaml)), alone);
   }
-  EXPECT_TRUE(mentions(alone, "on demand"));
-  EXPECT_TRUE(mentions(alone, "matrices"));
+  EXPECT_TRUE(mentions(alone, "thinned"));
+  EXPECT_TRUE(mentions(alone, "whole"));
 }
 
 void prepareAll(const Scene& scene) {
@@ -110,31 +110,26 @@ TEST_F(SceneLoading, MatricesGoToBodiesInOrderWhileTheLimitLasts) {
     yaml += "  - {name: " + name + ", box: {size: [1, 2, 2.99999" + std::to_string(name[0] - 'a') +
             "]}, max_edge_length: 0.5}\n";
   }
-  yaml += "  - {name: tiny, box: {size: [1, 2, 3]}, max_edge_length: 10}\n";
-  const auto has_matrices = [&](std::size_t body) {
+  const auto is_whole = [&](std::size_t body) {
     const Scene scene = load(yaml);
-    EXPECT_EQ(scene.bodies.size(), 4U);
+    EXPECT_EQ(scene.bodies.size(), 3U);
     prepareAll(scene);
-    return gridOf(*scene.bodies[body].mesh).metric().hasMatrices();
+    return !gridOf(*scene.bodies[body].mesh).metric().isThinned();
   };
-  EXPECT_TRUE(has_matrices(0));
-  EXPECT_TRUE(has_matrices(1));
-  EXPECT_FALSE(has_matrices(2));
-  EXPECT_FALSE(has_matrices(3));  // nothing is left
-  const std::size_t tiny = std::size_t{8} * 8 * 6;
-  options.metric_memory_limit += tiny;
-  EXPECT_TRUE(has_matrices(3));  // what is left holds the small one
-  options.metric_memory_limit -= tiny + 1;
-  EXPECT_FALSE(has_matrices(1));
+  EXPECT_TRUE(is_whole(0));
+  EXPECT_TRUE(is_whole(1));
+  EXPECT_FALSE(is_whole(2));
+  --options.metric_memory_limit;
+  EXPECT_FALSE(is_whole(1));
 }
 
 TEST_F(SceneLoading, BodiesAddedLaterShareTheLimitOfMatrices) {
   const std::size_t nodes = gridOf(*loadBody(box("x"), "", nullptr).mesh).graph().nodeCount();
   options.metric_memory_limit = nodes * nodes * 6;
   const Scene scene = load("bodies: [{name: a, box: {size: [1, 2, 2.999999]}, max_edge_length: 0.5}]\n");
-  EXPECT_TRUE(gridOf(*scene.bodies[0].mesh).metric().hasMatrices());
+  EXPECT_FALSE(gridOf(*scene.bodies[0].mesh).metric().isThinned());
   const SceneBody added = loadBody(box("b"), "", nullptr, scene.pool);
-  EXPECT_FALSE(gridOf(*added.mesh).metric().hasMatrices());
+  EXPECT_TRUE(gridOf(*added.mesh).metric().isThinned());
   EXPECT_EQ(scene.pool->metricMemory()->used(), options.metric_memory_limit);
 }
 
@@ -300,18 +295,18 @@ TEST_F(SceneLoading, AnAutomaticGridIsThinnedAsBodyMeshDoesAndCountedSo) {
   const SceneBody thinned = loadBody(ball, "", nullptr, std::make_shared<BodyPool>(kLimit * kLimit * 6));
   EXPECT_GT(gridOf(*thinned.mesh).nodes().grid.vertexCount(), kLimit);
   EXPECT_EQ(gridOf(*thinned.mesh).graph().nodeCount(), kLimit);
-  EXPECT_TRUE(gridOf(*thinned.mesh).metric().hasMatrices());
+  EXPECT_FALSE(gridOf(*thinned.mesh).metric().isThinned());
   const auto too_small = std::make_shared<BodyPool>(kLimit * kLimit * 6 - 1);
-  EXPECT_FALSE(gridOf(*loadBody(ball, "", nullptr, too_small).mesh).metric().hasMatrices());
+  EXPECT_TRUE(gridOf(*loadBody(ball, "", nullptr, too_small).mesh).metric().isThinned());
 }
 
 TEST_F(SceneLoading, LimitOfTheFileGoesBeforeTheCallers) {
-  const std::string bodies = "bodies: [{name: a, box: {size: [1, 1, 1]}, max_edge_length: 0.5}]\n";
-  EXPECT_TRUE(gridOf(*load(bodies).bodies[0].mesh).metric().hasMatrices());
-  EXPECT_FALSE(gridOf(*load("metric_memory_limit_mb: 0\n" + bodies).bodies[0].mesh).metric().hasMatrices());
+  const std::string bodies = "bodies: [{name: a, box: {size: [1, 1, 1]}, max_edge_length: 0.2}]\n";
+  EXPECT_FALSE(gridOf(*load(bodies).bodies[0].mesh).metric().isThinned());
+  EXPECT_TRUE(gridOf(*load("metric_memory_limit_mb: 0\n" + bodies).bodies[0].mesh).metric().isThinned());
   options.metric_memory_limit = 0;
-  EXPECT_FALSE(gridOf(*load(bodies).bodies[0].mesh).metric().hasMatrices());
-  EXPECT_TRUE(gridOf(*load("metric_memory_limit_mb: 1\n" + bodies).bodies[0].mesh).metric().hasMatrices());
+  EXPECT_TRUE(gridOf(*load(bodies).bodies[0].mesh).metric().isThinned());
+  EXPECT_FALSE(gridOf(*load("metric_memory_limit_mb: 1\n" + bodies).bodies[0].mesh).metric().isThinned());
 }
 
 TEST_F(SceneLoading, BrokenFilesAreProblemsAndTheRestIsServed) {
@@ -381,11 +376,11 @@ TEST_F(SceneLoading, SingleBodyIsLoadedAsASceneDoes) {
   EXPECT_EQ(body.frame, "world");
   EXPECT_EQ(body.mesh->name(), "crate");
   EXPECT_NEAR(test::signedVolume(body.mesh->surface()), 6.0, 1e-12);
-  EXPECT_TRUE(gridOf(*body.mesh).metric().hasMatrices());
+  EXPECT_FALSE(gridOf(*body.mesh).metric().isThinned());
   EXPECT_FALSE(body.in_robot_model);
-  EXPECT_FALSE(gridOf(*loadBody(box("crate"), "", nullptr, std::make_shared<BodyPool>(100)).mesh)
-                   .metric()
-                   .hasMatrices());
+  EXPECT_TRUE(gridOf(*loadBody(box("crate"), "", nullptr, std::make_shared<BodyPool>(100)).mesh)
+                  .metric()
+                  .isThinned());
 }
 
 TEST_F(SceneLoading, SingleBodyWithAMeshIsPlacedInItsFrame) {

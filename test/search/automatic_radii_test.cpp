@@ -66,7 +66,7 @@ TEST(AutomaticRadii, StayBelowTheSpacingOfTeeth) {
   // Twenty teeth, 0.1 long and wide, 0.05 apart: from tip to tip it is 0.25 and at most a tip's width more,
   // along the edges of a triangular lattice up to 2 / sqrt(3) times that, while a tenth of the way across
   // both is more than 0.4.
-  const auto rake = test::makeSearchBody(test::makeComb(20, 0.05, 0.05, 0.1, 0.3), 0.08, 0);
+  const auto rake = test::makeSearchBody(test::makeComb(20, 0.05, 0.05, 0.1, 0.3), 0.08);
   EXPECT_GT(0.2 * geodesicExtent(gridOf(*rake).graph()), 0.4);
   EXPECT_LE(automaticRadii(*rake, *rake, {}).sharing, 2.0 / std::sqrt(3.0) * 0.3);
 }

@@ -25,7 +25,7 @@ TEST(GeneticParameters, AreRefusedByNameWithTheValueSeen) {
       {"population_size", "7", [](auto& p) { p.population_size = 7; }},
       {"mutation_probability", "-0.1", [](auto& p) { p.mutation_probability = -0.1; }},
       {"mating_radius", "nan", [](auto& p) { p.mating_radius = kNan; }},
-      {"elite_count", "101", [](auto& p) { p.elite_count = 101; }},
+      {"crossover_probability", "1.5", [](auto& p) { p.crossover_probability = 1.5; }},
   };
   for (const Case& c : cases) {
     GeneticParameters parameters;

@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "search/mating.h"
-#include "search/niche_identification.h"
 #include "search/search_fixtures.h"
 #include "search/selection.h"
 
@@ -29,26 +28,19 @@ struct Niches : test::MeasuredPair {
 
 RC_GTEST_PROP(PairMetric, AddsBothBodiesAndIsAMetric, ()) {
   static Niches combs(test::facingCombs());
-  static Niches on_demand(test::facingCombs(0.1, 0));
   RandomEngine engine(*rc::gen::arbitrary<std::uint64_t>());
   const auto points = combs.drawPopulation(3, engine);
   const auto delta = [&](std::size_t i, std::size_t j) {
-    return combs.metric.distanceWithin(points[i], points[j], kInfinity);
+    return combs.metric.distance(points[i], points[j]);
   };
-  RC_ASSERT(delta(0, 1) ==
-            combs.metric.onA().distanceWithin(points[0].node_a, points[1].node_a, kInfinity) +
-                combs.metric.onB().distanceWithin(points[0].node_b, points[1].node_b, kInfinity));
+  RC_ASSERT(delta(0, 1) == combs.metric.onA().distance(points[0].node_a, points[1].node_a) +
+                               combs.metric.onB().distance(points[0].node_b, points[1].node_b));
   RC_ASSERT(delta(0, 1) == delta(1, 0));
   RC_ASSERT(delta(0, 2) <= (delta(0, 1) + delta(1, 2)) * (1.0 + 0x1.0p-22));
   RC_ASSERT(delta(0, 0) == 0.0);
-  const double bound = *rc::gen::element(0.3, 1.0, delta(0, 1));
-  RC_ASSERT(combs.metric.distanceWithin(points[0], points[1], bound) ==
-            (delta(0, 1) <= bound ? delta(0, 1) : kInfinity));
-  RC_ASSERT(on_demand.metric.distanceWithin(points[0], points[1], bound) ==
-            (delta(0, 1) <= bound ? delta(0, 1) : kInfinity));
 }
 
-RC_GTEST_PROP(NicheIdentification, IsBestStripRepeat, ()) {
+RC_GTEST_PROP(NichePeaks, AreBestStripRepeat, ()) {
   static Niches combs(test::facingCombs());
   static Niches shells(test::shellsAndShells());
   Niches& niches = **rc::gen::element(&combs, &shells);
@@ -56,49 +48,29 @@ RC_GTEST_PROP(NicheIdentification, IsBestStripRepeat, ()) {
   const auto population = niches.drawPopulation(40, engine);
   const double radius = *rc::gen::element(0.1, 0.4, 1.0, 3.0);
 
-  const auto best_strip_repeat = [&](const auto& distance) {
-    std::vector<IdentifiedNiche> expected;
-    std::vector<TrialPoint> left = population;
-    while (!left.empty()) {
-      const TrialPoint best = *std::min_element(left.begin(), left.end());
-      const auto stays = std::stable_partition(
-          left.begin(), left.end(), [&](const TrialPoint& point) { return distance(best, point) > radius; });
-      expected.push_back({best, static_cast<std::uint32_t>(left.end() - stays)});
-      left.erase(stays, left.end());
-    }
-    return expected;
-  };
-  const auto distance = [&](const TrialPoint& l, const TrialPoint& r) {
-    return niches.metric.distanceWithin(l, r, kInfinity);
-  };
-  const std::vector<IdentifiedNiche> expected = best_strip_repeat(distance);
-
-  std::vector<IdentifiedNiche> found;
-  std::vector<std::uint32_t> order;
-  identifyNiches(population, radius, niches.metric, found, order);
-  RC_ASSERT(found.size() == expected.size());
-  for (std::size_t i = 0; i < found.size(); ++i) {
-    RC_ASSERT(samePlace(found[i].best, expected[i].best));
-    RC_ASSERT(found[i].member_count == expected[i].member_count);
+  // The table keeps distances in single precision: one next to the radius may fall on its other side.
+  std::vector<TrialPoint> expected;
+  std::vector<TrialPoint> left = population;
+  while (!left.empty()) {
+    expected.push_back(*std::min_element(left.begin(), left.end()));
+    const auto is_stripped = [&](const TrialPoint& point) {
+      return static_cast<float>(niches.metric.distance(expected.back(), point)) <= radius;
+    };
+    left.erase(std::remove_if(left.begin(), left.end(), is_stripped), left.end());
   }
 
   TrialPointTable places;
-  places.reset(kInfinity);
   std::vector<std::uint32_t> where;
   for (const TrialPoint& point : population) {
     where.push_back(places.placeOf(point));
   }
   Census census;
   census.take(where, places.size());
+  std::vector<std::uint32_t> order;
   std::vector<std::uint32_t> peaks;
   nichePeaks(census, radius, places, niches.metric, order, peaks);
-  // The table keeps distances in single precision: one next to the radius may fall on its other side.
-  const std::vector<IdentifiedNiche> rounded = best_strip_repeat(
-      [&](const TrialPoint& l, const TrialPoint& r) { return static_cast<float>(distance(l, r)); });
-  RC_ASSERT(peaks.size() == rounded.size());
-  for (std::size_t i = 0; i < peaks.size(); ++i) {
-    RC_ASSERT(samePlace(places.point(peaks[i]), rounded[i].best));
-  }
+  RC_ASSERT(peaks.size() == expected.size());
+  for (std::size_t i = 0; i < peaks.size(); ++i) RC_ASSERT(samePlace(places.point(peaks[i]), expected[i]));
 }
 
 TEST(TrialPointTable, NumbersDistinctTrialPointsAndMeasuresThemOnce) {
@@ -106,8 +78,8 @@ TEST(TrialPointTable, NumbersDistinctTrialPointsAndMeasuresThemOnce) {
   RandomEngine engine(51);
   const auto population = niches.drawPopulation(200, engine);
   TrialPointTable places;
-  for (int run = 0; run < 2; ++run) {  // again after a reset
-    places.reset(0.8);
+  for (int run = 0; run < 2; ++run) {  // again after it is cleared
+    places.clear();
     std::vector<std::uint32_t> where;
     for (const TrialPoint& point : population) {
       where.push_back(places.placeOf(point));
@@ -115,7 +87,7 @@ TEST(TrialPointTable, NumbersDistinctTrialPointsAndMeasuresThemOnce) {
     for (std::size_t i = 0; i < population.size(); ++i) {
       for (std::size_t j = 0; j < population.size(); ++j) {
         ASSERT_EQ(where[i] == where[j], samePlace(population[i], population[j]));
-        const double exact = niches.metric.distanceWithin(population[i], population[j], 0.8);
+        const double exact = niches.metric.distance(population[i], population[j]);
         ASSERT_EQ(places.delta(where[i], where[j], niches.metric),
                   static_cast<double>(static_cast<float>(exact)));
       }
@@ -126,13 +98,12 @@ TEST(TrialPointTable, NumbersDistinctTrialPointsAndMeasuresThemOnce) {
 TEST(TrialPointTable, MeasuresBeyondThePlacesItKeepsDistancesOf) {
   Niches niches(test::facingCombs());
   TrialPointTable places;
-  places.reset(kInfinity);
   const auto nodes = static_cast<std::uint32_t>(gridOf(*niches.scene.a).graph().nodeCount());
   for (std::uint32_t i = 0; i < 1500; ++i) {
     places.placeOf({NodeIndex{i % nodes}, NodeIndex{i / nodes}, 0.0});
   }
   ASSERT_EQ(places.size(), 1500U);
-  const double exact = niches.metric.distanceWithin(places.point(3), places.point(1400), kInfinity);
+  const double exact = niches.metric.distance(places.point(3), places.point(1400));
   EXPECT_EQ(places.delta(3, 1400, niches.metric), static_cast<double>(static_cast<float>(exact)));
   EXPECT_EQ(places.delta(1400, 3, niches.metric), places.delta(3, 1400, niches.metric));
 }
@@ -175,7 +146,6 @@ class MatingRestriction : public testing::Test {
   MatingRestriction() : niches_(test::facingCombs()) {
     RandomEngine engine(61);
     const auto population = niches_.drawPopulation(40, engine);
-    places_.reset(kInfinity);
     for (const TrialPoint& point : population) {
       where_.push_back(places_.placeOf(point));
     }

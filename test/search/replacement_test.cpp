@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <limits>
 #include <set>
 
 #include "search/search_fixtures.h"
@@ -18,7 +17,6 @@ struct Population {
   Census census;
 
   explicit Population(const std::vector<std::uint32_t>& ranks, std::uint32_t place_count = 10) {
-    places.reset(std::numeric_limits<double>::infinity());
     for (std::uint32_t i = 0; i < place_count; ++i) {
       places.placeOf({NodeIndex{i}, NodeIndex{i}, static_cast<double>(i)});
     }
@@ -79,35 +77,6 @@ TEST(Elites, MoreThanSeatsKeepTheBest) {
   restoreElites({0, 1, 2, 3}, population.places, population.census, population.points, population.where);
   EXPECT_EQ(std::set<std::uint32_t>(population.where.begin(), population.where.end()),
             (std::set<std::uint32_t>{0, 1}));
-}
-
-using Crowding = test::PlacesOnAPath;
-
-TEST_F(Crowding, PairedContestTakesTheClosestPairing) {
-  Contestant first = at(0, 5.0);
-  Contestant second = at(6, 5.0);
-  // The children are near the other parent each: crossed they compete.
-  competePaired(first, second, at(5, 4.0), at(1, 6.0), places_, metric);
-  EXPECT_EQ(first.point.squared_distance, 5.0) << "its rival (6) was worse";
-  EXPECT_EQ(second.point.squared_distance, 4.0) << "replaced by the child near it";
-  EXPECT_EQ(second.place, at(5, 4.0).place);
-}
-
-TEST_F(Crowding, PairedContestGivesEachParentOneRival) {
-  Contestant first = at(0, 5.0);
-  Contestant second = at(6, 5.0);
-  // Both children are near the first parent; only one may meet it.
-  competePaired(first, second, at(1, 1.0), at(2, 2.0), places_, metric);
-  EXPECT_EQ(first.point.squared_distance, 1.0);
-  EXPECT_EQ(second.point.squared_distance, 2.0);
-}
-
-TEST_F(Crowding, EqualFitnessReplacesNobody) {
-  Contestant first = at(0, 5.0);
-  Contestant second = at(6, 5.0);
-  competePaired(first, second, at(1, 5.0), at(5, 5.0), places_, metric);
-  EXPECT_EQ(first.place, at(0, 5.0).place);
-  EXPECT_EQ(second.place, at(6, 5.0).place);
 }
 
 }  // namespace

@@ -46,7 +46,7 @@ struct SharedPopulation : MeasuredPair {
   SharedPopulation() : MeasuredPair(shellsAndShells()) {}
 
   void fill(std::uint32_t individuals, std::uint32_t distinct, RandomEngine& engine) {
-    places.reset(kInfinity);
+    places.clear();
     where.clear();
     std::vector<TrialPoint> points;
     for (std::uint32_t i = 0; i < distinct; ++i) points.push_back(drawPoint(engine));
@@ -57,28 +57,8 @@ struct SharedPopulation : MeasuredPair {
   }
 
   double delta(std::uint32_t i, std::uint32_t j) {
-    return metric.distanceWithin(places.point(where[i]), places.point(where[j]), kInfinity);
+    return metric.distance(places.point(where[i]), places.point(where[j]));
   }
-};
-
-/// Places along the edge of one tooth: node k of A's path, always the same node of B, with distances given.
-class PlacesOnAPath : public ::testing::Test, protected MeasuredPair {
- protected:
-  PlacesOnAPath() : MeasuredPair(facingCombs()) {
-    places_.reset(kInfinity);
-    const NodeGraph& graph = gridOf(*scene.a).graph();
-    const std::vector<double> length = pathLengthsFrom(graph, {NodeIndex{0}});
-    const auto farthest = std::max_element(length.begin(), length.end());
-    path_ = shortestPath(graph, NodeIndex{0}, NodeIndex{static_cast<std::size_t>(farthest - length.begin())});
-  }
-
-  Contestant at(std::size_t step, double squared_distance) {
-    const TrialPoint point{path_.at(step), NodeIndex{3}, squared_distance};
-    return {point, places_.placeOf(point)};
-  }
-
-  TrialPointTable places_;
-  std::vector<NodeIndex> path_;
 };
 
 /// Holds the parts that runs of the genetic search on a pair of bodies share.

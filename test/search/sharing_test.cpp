@@ -28,16 +28,12 @@ TEST(Sharing, FitnessGrowsAsTheDistanceFalls) {
   EXPECT_GT(potentialFitness(0.0, 0.0), potentialFitness(1e-12, 0.0));
 }
 
-TEST(Sharing, EpsilonIsAShareOfTheLongestEdgeOfBothGrids) {
+TEST(Sharing, EpsilonIsTheLongestEdgeOfBothGrids) {
   const auto fine = test::makeSearchBody(test::makeLShape(), 0.1);
   const auto coarse = test::makeSearchBody(test::makeLShape(), 0.3);
   ASSERT_LT(gridOf(*fine).nodes().max_edge_length, gridOf(*coarse).nodes().max_edge_length);
-  GeneticParameters parameters;
-  parameters.fitness_epsilon = 0.5;
-  EXPECT_DOUBLE_EQ(fitnessEpsilon(parameters, *fine, *coarse), 0.5 * gridOf(*coarse).nodes().max_edge_length);
-  EXPECT_DOUBLE_EQ(fitnessEpsilon(parameters, *coarse, *fine), 0.5 * gridOf(*coarse).nodes().max_edge_length);
-  parameters.fitness_epsilon = 0.0;
-  EXPECT_EQ(fitnessEpsilon(parameters, *fine, *coarse), 0.0);
+  EXPECT_EQ(fitnessEpsilon(*fine, *coarse), gridOf(*coarse).nodes().max_edge_length);
+  EXPECT_EQ(fitnessEpsilon(*coarse, *fine), gridOf(*coarse).nodes().max_edge_length);
 }
 
 // Table 5.19, alpha_s = 10, has 46.9/16.4/13.1/7.6/4.1 points in the first five niches of battery and

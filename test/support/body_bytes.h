@@ -16,7 +16,6 @@
 #include "search/grid/body_grid.h"
 #include "search/grid/mesh_metric.h"
 #include "search/grid/node_graph.h"
-#include "search/grid/node_levels.h"
 
 /// Every number that a body holds, so that two bodies can be compared bit for bit.
 namespace concave_distance::test {
@@ -81,14 +80,9 @@ inline Bytes bytesOf(const NodeGraph& graph) {
 
 inline Bytes bytesOf(const MeshMetric& metric) {
   Bytes bytes;
-  if (!metric.hasMatrices()) return bytes;
   const std::size_t nodes = metric.graph().nodeCount();
   for (std::size_t i = 0; i < nodes; ++i) {
-    for (std::size_t j = 0; j < nodes; ++j) {
-      appendBytes(metric.matrixDistance(NodeIndex{i}, NodeIndex{j}), bytes);
-      const bool connected = metric.graph().shell[i] == metric.graph().shell[j];
-      appendBytes(connected ? metric.matrixPredecessor(NodeIndex{i}, NodeIndex{j}) : NodeIndex{}, bytes);
-    }
+    for (std::size_t j = 0; j < nodes; ++j) appendBytes(metric.distance(NodeIndex{i}, NodeIndex{j}), bytes);
   }
   return bytes;
 }
@@ -119,13 +113,6 @@ inline std::map<std::string, Bytes> bytesOf(const BodyMesh& body) {
   parts["grid vertices"] = bytesOf(grid.nodes().grid.vertices());
   parts["grid triangles"] = bytesOf(grid.nodes().grid.triangles());
   parts["graph"] = bytesOf(grid.graph());
-  Bytes& levels = parts["levels"];
-  for (const NodeLevel& level : grid.nodes().levels.levels) {
-    const Bytes graph = bytesOf(level.graph);
-    levels.insert(levels.end(), graph.begin(), graph.end());
-    for (const NodeIndex node : level.finer_node) appendBytes(node, levels);
-    for (const NodeIndex node : level.node_of_finer) appendBytes(node, levels);
-  }
   parts["metric"] = bytesOf(grid.metric());
   Bytes& nodes = parts["nodes"];
   for (std::size_t node = 0; node < grid.graph().nodeCount(); ++node) {

@@ -26,10 +26,10 @@ class Group {
     for (std::uint32_t k = 0; k < 4; ++k) {
       bodies_.push_back(std::make_shared<const BodyMesh>("body", test::concaveShape(k), thinned));
     }
-    BodyMeshOptions on_demand;  // no matrices, with levels
-    on_demand.max_edge_length = 0.02;
-    on_demand.matrix_node_limit = 0;
-    bodies_.push_back(std::make_shared<const BodyMesh>("fine", test::makeComb(3), on_demand));
+    BodyMeshOptions fine;  // more nodes than the mesh metric holds
+    fine.max_edge_length = 0.05;
+    fine.matrix_node_limit = 100;
+    bodies_.push_back(std::make_shared<const BodyMesh>("fine", test::makeComb(3), fine));
     TrackerParameters parameters;
     parameters.accuracy = level;
     for (std::size_t a = 0; a < bodies_.size(); ++a) {

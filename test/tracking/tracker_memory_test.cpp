@@ -65,7 +65,7 @@ TEST(TrackerMemory, APairWithNichesTakesAFewHundredKilobytes) {
   const auto b = bodyOf(test::makeComb(3));
   EXPECT_LT(trackedBytes(a, b, TrackerParameters()), 600'000U);
   TrackerParameters nodes;
-  nodes.accuracy = AccuracyLevel::Nodes;  // a cold run of 300 individuals meets more than a thousand places
+  nodes.accuracy = AccuracyLevel::Nodes;  // a cold run meets more than a thousand places
   EXPECT_LT(trackedBytes(a, b, nodes), 900'000U);
   EXPECT_NE(gridOf(*b).metricIfMade(), nullptr);
 }
@@ -90,7 +90,7 @@ TEST(BodyMesh, PreparingBodiesGivesMatricesInTheirOrder) {
   }
   prepareSearch(order);
   for (std::size_t i = 0; i < bodies.size(); ++i) {
-    EXPECT_EQ(gridOf(*bodies[i]).metric().hasMatrices(), i < 2) << i;
+    EXPECT_EQ(gridOf(*bodies[i]).metric().isThinned(), i >= 2) << i;
   }
   prepareSearch(order);  // nothing left to do
   order.clear();

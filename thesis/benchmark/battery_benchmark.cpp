@@ -23,12 +23,13 @@
 #include "distance/niches/niche_properties.h"
 #include "loading/query_poses.h"
 #include "search/automatic_radii.h"
-#include "search/genetic_search.h"
 #include "search/grid/body_grid.h"
 #include "search/local_descent.h"
 #include "support/enumeration.h"
 #include "thesis/benchmark/support/reference_niches.h"
 #include "thesis/src/genetic/comb_ga.h"
+#include "thesis/src/genetic/niche_identification.h"
+#include "thesis/src/grid/grid_nodes.h"
 
 namespace concave_distance::benchmark {
 namespace {
@@ -51,6 +52,15 @@ struct NicheRun {
   RecallCount archive;
 };
 
+BenchmarkPair onThesisGrid(const std::string& name) {
+  BenchmarkPair pair = loadBenchmarkPair(name, kThesisGrid);
+  for (const auto& body : {pair.a, pair.b}) {
+    SearchNodes nodes = makeGridNodes(body->surface(), body->options(), body->name());
+    body->attach(std::make_unique<BodyGrid>(*body, std::move(nodes)));
+  }
+  return pair;
+}
+
 CombGaParameters combGaWl() {
   CombGaParameters parameters;  // Table 5.2
   parameters.exchange_probability = 0.0;
@@ -63,8 +73,8 @@ CombGaParameters combGaWl() {
   return parameters;
 }
 
-GeneticParameters combGaWlSh(bool conserve_niches, double exchange_probability) {
-  GeneticParameters parameters;  // Tables 4.1 and 5.8 with N_pop 100; radii automatic
+CombGaParameters combGaWlSh(bool conserve_niches, double exchange_probability) {
+  CombGaParameters parameters;  // Tables 4.1 and 5.8 with N_pop 100; radii automatic
   parameters.conserve_niches = conserve_niches;
   parameters.exchange_probability = exchange_probability;
   parameters.population_size = 100;
@@ -110,13 +120,12 @@ NicheRun nicheRun(const BenchmarkPair& pair, const Eigen::Isometry3d& pose,
                   const std::vector<ReferenceNiche>& references, double cutoff, std::uint64_t seed,
                   bool conserve_niches, double exchange_probability) {
   NicheRun run;
-  const GeneticParameters parameters = combGaWlSh(conserve_niches, exchange_probability);
+  const CombGaParameters parameters = combGaWlSh(conserve_niches, exchange_probability);
   const PairObjective objective(*pair.a, *pair.b, pose);
   SearchWorkspace workspace(*pair.a, *pair.b);
   RandomEngine engine(streamSeed(seed, "battery_benchmark", 0));
   const NicheRadii radii = automaticRadii(*pair.a, *pair.b, parameters);
-  GeneticState state(objective, parameters, radii, engine, workspace);
-  geneticSearch(state, {});
+  combGa(objective, parameters, radii, {}, engine, workspace);
   std::vector<IdentifiedNiche> niches;
   std::vector<std::uint32_t> order;
   identifyNiches(workspace.population, kThesisNicheRadius, workspace.metric, niches, order);
@@ -125,7 +134,6 @@ NicheRun nicheRun(const BenchmarkPair& pair, const Eigen::Isometry3d& pose,
                                references, cutoff, kLeastProminence);
 
   TrackerParameters tracking;
-  tracking.cold = parameters;
   tracking.seed = seed;
   tracking.least_prominence = kLeastProminence;
   const PairSolution solution = solveOnce("battery_benchmark", pair.a, pair.b, tracking, pose);
@@ -145,7 +153,7 @@ struct Manoeuvre {
 };
 
 Manoeuvre runManoeuvre() {
-  const BenchmarkPair pair = loadBenchmarkPair("battery_insertion", kThesisGrid);
+  const BenchmarkPair pair = onThesisGrid("battery_insertion");
   TrackerParameters parameters;
   parameters.accuracy = AccuracyLevel::Nodes;
   PairTracker tracker(pair.name, pair.a, pair.b, parameters);
@@ -246,7 +254,7 @@ int benchmarkMain(int argc, char** argv) {
   app.add_option("--output", output, "CSV file to write");
   CLI11_PARSE(app, argc, argv);
 
-  const BenchmarkPair pair = loadBenchmarkPair("battery_fixture", kThesisGrid);
+  const BenchmarkPair pair = onThesisGrid("battery_fixture");
   const Eigen::Isometry3d pose = pair.motion(0.0);
   const double cutoff = pair.b->diameter();
   const TrialPoint optimum = test::enumerateNodePairs(*pair.a, *pair.b, pose);

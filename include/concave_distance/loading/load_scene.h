@@ -64,8 +64,8 @@ struct SceneLoadOptions {
   std::map<std::string, std::string> descriptions;
   PairSettings default_settings;
   /// Bytes that the matrices of all mesh metrics may take together, including those of bodies added later. A
-  /// body gets its matrices at its first search if the rest of the limit holds them; the others compute
-  /// distances on their mesh on demand.
+  /// body gets its matrices at its first search if the rest of the limit holds them; those of the others hold
+  /// 128 nodes.
   std::size_t metric_memory_limit = kDefaultMetricMemoryLimit;
   /// Meshes are shared with the scene of this pool where they are equal; nullptr: with none.
   std::shared_ptr<BodyPool> pool;

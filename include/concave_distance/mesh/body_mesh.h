@@ -35,10 +35,10 @@ struct BodyMeshOptions {
   std::size_t search_node_limit = 800;
   /// Largest number of nodes of the grid, compared with an estimate before it is made.
   std::size_t largest_node_count = 20'000'000;
-  /// The matrices of the mesh metric are kept up to this many nodes (at most 65535), 6 bytes an entry;
-  /// beyond, distances along the mesh are searched on demand.
+  /// The matrices of the mesh metric hold at most this many nodes (at most 65535), 6 bytes an entry; of a
+  /// larger graph, evenly spread ones.
   std::size_t matrix_node_limit = 4096;
-  /// Limit for these matrices, shared by several bodies; without room in it none are made. nullptr: no limit.
+  /// Limit for these matrices, shared by bodies; without room in it they hold 128 nodes. nullptr: no limit.
   std::shared_ptr<MetricMemory> metric_memory;
   /// The solid that the surface is the inscribed mesh of: answers are for that solid. Empty: the surface is
   /// what it is.

@@ -16,10 +16,10 @@ void prepareLargeGrid(const BodyMesh& body);
 
 /// Says what has been made for the searches of a body.
 struct SearchPreparation {
-  std::size_t grid_nodes = 0;    ///< 0: no grid yet
-  double max_edge_length = 0.0;  ///< of the grid, metres
-  bool is_complete = false;      ///< grid and mesh metric
-  bool has_matrices = false;     ///< of the mesh metric
+  std::size_t grid_nodes = 0;      ///< 0: no grid yet
+  double max_edge_length = 0.0;    ///< of the grid, metres
+  bool is_complete = false;        ///< grid and mesh metric
+  bool is_metric_thinned = false;  ///< mesh distances are kept for a choice of the nodes
 };
 SearchPreparation searchPreparationOf(const BodyMesh& body);
 

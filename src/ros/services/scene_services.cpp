@@ -62,10 +62,10 @@ bool SceneServices::listBodies(ListBodies::Request& /*request*/, ListBodies::Res
   }
   for (const SceneBody& body : scene->bodies) {
     const SearchPreparation prepared = searchPreparationOf(body.mesh->asSolved());
-    if (prepared.is_complete && !prepared.has_matrices) {
+    if (prepared.is_metric_thinned) {
       response.notes.push_back(body.name +
-                               ": mesh distances are computed on demand, because its matrices exceed "
-                               "metric_memory_limit_mb or 4096 nodes");
+                               ": the search measures along its mesh between evenly spread nodes only, "
+                               "because those of all would exceed metric_memory_limit_mb or 4096 nodes");
     }
   }
   return true;

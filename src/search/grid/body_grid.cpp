@@ -2,8 +2,8 @@
 
 #include <tbb/task_arena.h>
 
+#include <algorithm>
 #include <utility>
-#include <vector>
 
 #include "concave_distance/base/error.h"
 #include "geodesic_extent.h"
@@ -11,6 +11,9 @@
 
 namespace concave_distance {
 namespace {
+
+// The matrices of a body for which there is no room: 98 kB.
+constexpr std::size_t kNodesWithoutRoom = 128;
 
 GraphMetric measure(const NodeGraph& graph, std::size_t matrix_node_limit) {
   GraphMetric made;
@@ -51,9 +54,9 @@ const SearchNodes& BodyGrid::makeNodes() const {
 bool BodyGrid::reserveMatrices() const {
   const auto reserve = [&]() -> Reserved {
     const BodyMeshOptions& options = body_.options();
-    const std::size_t nodes = graph().nodeCount();
-    if (!options.metric_memory || !MeshMetric::wantsMatrices(nodes, options.matrix_node_limit)) return {};
-    const std::size_t wanted = MeshMetric::matrixBytes(nodes);
+    if (!options.metric_memory) return {};
+    const std::size_t wanted =
+        MeshMetric::matrixBytes(std::min(graph().nodeCount(), options.matrix_node_limit));
     const bool has_room = options.metric_memory->take(wanted);
     return {has_room, has_room ? wanted : 0};
   };
@@ -62,7 +65,8 @@ bool BodyGrid::reserveMatrices() const {
 
 const GraphMetric& BodyGrid::measured() const {
   if (const GraphMetric* made = measured_.ifMade()) return *made;
-  const std::size_t matrix_node_limit = reserveMatrices() ? body_.options().matrix_node_limit : 0;
+  const std::size_t allowed = body_.options().matrix_node_limit;
+  const std::size_t matrix_node_limit = reserveMatrices() ? allowed : std::min(allowed, kNodesWithoutRoom);
   return measured_.get([&] {
     const NodeGraph& made = graph();
     return tbb::this_task_arena::isolate([&] { return measure(made, matrix_node_limit); });

@@ -131,11 +131,10 @@ double protrusionSpacing(const MeshMetric& metric, double bound) {
   constexpr std::size_t kProtrusionLimit = 64;  // the most prominent are enough; the others only cost time
   std::vector<Protrusion> protrusions = findProtrusions(metric.graph(), kLeastProminence);
   protrusions.resize(std::min(protrusions.size(), kProtrusionLimit));
-  MeshMetricQuery query(metric);
   double spacing = bound;
   for (std::size_t i = 0; i < protrusions.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
-      spacing = std::min(spacing, query.distanceWithin(protrusions[i].node, protrusions[j].node, bound));
+      spacing = std::min(spacing, metric.distance(protrusions[i].node, protrusions[j].node));
     }
   }
   return spacing;

@@ -1,6 +1,7 @@
 #include "graph_regions.h"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 namespace concave_distance::detail {
@@ -10,7 +11,7 @@ GraphRegions::GraphRegions(const NodeGraph& graph)
       distance_(graph.nodeCount(), std::numeric_limits<double>::infinity()),
       owner_(graph.nodeCount(), 0) {}
 
-void GraphRegions::grow(NodeIndex seed, double bound) {
+void GraphRegions::grow(NodeIndex seed) {
   const auto region = static_cast<std::uint32_t>(chosen_.size());
   chosen_.push_back(seed);
   distance_[seed.value] = 0.0;
@@ -25,7 +26,7 @@ void GraphRegions::grow(NodeIndex seed, double bound) {
     }
     for (const NodeGraph::Edge& edge : graph_.edges.row(nearest.node)) {
       const double next = nearest.distance + static_cast<double>(edge.length);
-      if (next <= bound && next < distance_[edge.to.value]) {
+      if (next < distance_[edge.to.value]) {
         distance_[edge.to.value] = next;
         owner_[edge.to.value] = region;
         front_.push_back({next, edge.to.value});

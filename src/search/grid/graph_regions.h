@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <vector>
 
 #include "thin_graph.h"
@@ -13,9 +12,9 @@ class GraphRegions {
  public:
   explicit GraphRegions(const NodeGraph& graph);
 
-  /// Chooses `seed`, which takes over what is nearer to it than to all chosen before and not farther than
-  /// `bound`. O(k log k) for the k nodes taken over.
-  void grow(NodeIndex seed, double bound = std::numeric_limits<double>::infinity());
+  /// Chooses `seed`, which takes over what is nearer to it than to all chosen before. O(k log k) for the k
+  /// nodes taken over.
+  void grow(NodeIndex seed);
 
   const std::vector<NodeIndex>& chosen() const { return chosen_; }
   /// Infinite for what belongs to none yet.

@@ -8,6 +8,8 @@
 #include <limits>
 #include <utility>
 
+#include "thin_graph.h"
+
 namespace concave_distance {
 namespace {
 
@@ -62,26 +64,46 @@ void fillRow(const NodeGraph& graph, std::uint32_t source, RowBuffers& buffers, 
 }  // namespace
 
 MeshMetric::MeshMetric(const NodeGraph& graph, std::size_t matrix_node_limit)
-    : graph_(&graph),
-      node_count_(graph.nodeCount()),
-      has_matrices_(wantsMatrices(node_count_, matrix_node_limit)) {
-  if (!has_matrices_) {
+    : graph_(&graph), size_(graph.nodeCount()) {
+  const std::size_t limit = std::min(matrix_node_limit, kLargestPredecessor);
+  if (size_ <= limit) {
+    fill(graph);
     return;
   }
-  distance_.resize(node_count_ * node_count_);
-  predecessor_.resize(node_count_ * node_count_);
+  ThinnedGraph thinned = thinGraph(graph, limit);
+  size_ = thinned.graph.nodeCount();
+  node_ = std::move(thinned.original_node);
+  owner_ = std::move(thinned.nearest);
+  if (size_ <= limit) fill(thinned.graph);
+}
+
+void MeshMetric::fill(const NodeGraph& graph) {
+  distance_.resize(size_ * size_);
+  predecessor_.resize(size_ * size_);
   tbb::enumerable_thread_specific<RowBuffers> buffers;
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, node_count_),
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, size_),
                     [&](const tbb::blocked_range<std::size_t>& rows) {
                       for (std::size_t i = rows.begin(); i < rows.end(); ++i) {
-                        fillRow(graph, static_cast<std::uint32_t>(i), buffers.local(),
-                                &distance_[i * node_count_], &predecessor_[i * node_count_]);
+                        fillRow(graph, static_cast<std::uint32_t>(i), buffers.local(), &distance_[i * size_],
+                                &predecessor_[i * size_]);
                       }
                     });
 }
 
-bool MeshMetric::wantsMatrices(std::size_t node_count, std::size_t matrix_node_limit) {
-  return node_count <= std::min(matrix_node_limit, kLargestPredecessor);
+NodeIndex MeshMetric::nodeTowards(NodeIndex from, NodeIndex to, double distance) const {
+  const std::size_t target = ownerOf(to);
+  std::size_t node = ownerOf(from);
+  const double length = this->distance(from, to);
+  if (node == target || length == kUnreached) return from;
+  const auto start = node;
+  // Rows of the target only: the predecessor on the way from it is the next node on the way there.
+  while (node != target) {
+    const std::size_t next = predecessor_[target * size_ + node];
+    if (length - static_cast<double>(distance_[target * size_ + next]) > distance) break;
+    node = next;
+  }
+  if (node == start) return from;
+  return node_.empty() ? NodeIndex{node} : node_[node];
 }
 
 }  // namespace concave_distance

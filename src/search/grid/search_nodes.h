@@ -6,17 +6,14 @@
 
 #include "concave_distance/mesh/body_mesh.h"
 #include "node_graph.h"
-#include "node_levels.h"
-#include "search_grid.h"
 
 namespace concave_distance {
 
-/// Holds what the search moves on: the even grid over a surface and its graph, thinned where the mesh itself
-/// is finer than the search wants.
+/// Holds what the search moves on: a grid over a surface and its graph, thinned where the mesh itself is
+/// finer than the search wants.
 struct SearchNodes {
   SurfaceMesh grid;
   NodeGraph graph;
-  NodeLevels levels;             ///< over the graph
   double max_edge_length = 0.0;  ///< metres
   /// An original triangle that each node of the graph lies on.
   std::vector<TriangleIndex> original_triangle_of_node;
@@ -31,9 +28,14 @@ struct SearchNodes {
   }
 };
 
-/// O(n log n). @throws Error (naming `where`) when the edge length is not positive and finite; as
-/// makeSearchGrid()
+/// Bisects the surface (refineToEdgeLength()) and thins an automatic grid to
+/// BodyMeshOptions::search_node_limit. O(n log n).
+/// @throws Error (naming `where`) when the edge length is not positive and finite; as refineToEdgeLength()
 SearchNodes makeSearchNodes(const SurfaceMesh& surface, const BodyMeshOptions& options,
                             const std::string& where);
+
+/// Thins the graph to so many nodes, where it has more. @param vertex_count of the surface, whose vertices
+/// are the first nodes
+void thinNodes(SearchNodes& nodes, std::size_t node_limit, std::size_t vertex_count);
 
 }  // namespace concave_distance

@@ -100,9 +100,6 @@ TEST(NodeParameters, RefuseWithNameValueAndRange) {
   XmlRpc::XmlRpcValue experts;
   experts["warm"]["population_size"] = 21;
   EXPECT_NE(refusal("expert", experts).find("an even number"), std::string::npos);
-  XmlRpc::XmlRpcValue choice;
-  choice["warm"]["niching"] = "dynamic_sharing";
-  EXPECT_NE(refusal("expert", choice).find("sharing, deterministic_crowding"), std::string::npos);
   EXPECT_NE(refusal("marker_far", -1.0), "");
   XmlRpc::XmlRpcValue crossed;
   crossed["marker_near"] = 0.2;

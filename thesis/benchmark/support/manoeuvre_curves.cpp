@@ -19,8 +19,7 @@ void ManoeuvreCurves::add(const Method& method, const std::vector<TimedPose>& po
                           const std::vector<MethodStep>& steps, const std::vector<double>& exact,
                           const std::vector<double>& best_nodes) {
   const bool partition = method.name == "QP, warm" && method.partition == "hand";
-  const std::vector<std::string> levels = {"comb-GA-wl-sh, Table 6.1", "nodes, search of Table 6.1", "nodes",
-                                           "refined", "certified"};
+  const std::vector<std::string> levels = {"comb-GA-wl-sh, Table 6.1", "nodes", "refined", "certified"};
   if (!partition && std::find(levels.begin(), levels.end(), method.name) == levels.end()) return;
   for (std::size_t k = 0; k < steps.size(); ++k) {
     csv_ << '"' << (partition ? "partition" : method.name) << '"' << ',' << poses[k].time

@@ -9,9 +9,9 @@
 #include "concave_distance/tracking/pair_tracker.h"
 #include "search/grid/body_grid.h"
 #include "search/grid/node_graph.h"
-#include "thesis/src/evaluation/comb_ga_tracker.h"
 #include "thesis/src/evaluation/inheriting_search.h"
 #include "thesis/src/evaluation/row_bases.h"
+#include "thesis/src/grid/grid_nodes.h"
 #include "thesis/src/partition/hybrid_distance.h"
 #include "thesis/src/partition/partition_tracker.h"
 
@@ -82,9 +82,9 @@ Method searchMethod(const std::string& name, const PartitionedPair& pair) {
           }};
 }
 
-/// @param Tracker PairTracker or CombGaTracker
-template <typename Tracker>
-Method methodOf(const std::string& name, const std::shared_ptr<Tracker>& tracker) {
+Method trackerMethod(const std::string& name, const PartitionedPair& pair,
+                     const TrackerParameters& parameters) {
+  auto tracker = std::make_shared<PairTracker>(pair.name, pair.a, pair.b, parameters);
   auto solution = std::make_shared<PairSolution>();
   return {name, "none", [tracker, solution](const Eigen::Isometry3d& pose, double time) {
             const double start = processorMicroseconds();
@@ -96,20 +96,6 @@ Method methodOf(const std::string& name, const std::shared_ptr<Tracker>& tracker
             step.flops = kFlopsPerNodePair * static_cast<double>(solution->cost.evaluations);
             return step;
           }};
-}
-
-Method trackerMethod(const std::string& name, const PartitionedPair& pair,
-                     const TrackerParameters& parameters) {
-  return methodOf(name, std::make_shared<PairTracker>(pair.name, pair.a, pair.b, parameters));
-}
-
-/// This package's tracker with the search of Table 6.1: it follows every niche and keeps an archive besides.
-Method trackerWithTableSearch(const std::string& name, const PartitionedPair& pair) {
-  TrackerParameters parameters = parametersOf(AccuracyLevel::Nodes, true);
-  parameters.cold = parameters.warm = partOfCore(tableParameters());
-  parameters.random_starts = 0;
-  return methodOf(name, std::make_shared<evaluation::CombGaTracker>(pair.name, pair.a, pair.b, parameters,
-                                                                    tableParameters(), tableParameters()));
 }
 
 /// The search at `nodes` selects the sub-pairs, the quadratic program finishes them.
@@ -178,7 +164,6 @@ std::vector<Method> manoeuvreMethods(const PartitionedPair& pair, bool cold) {
   }
   methods.push_back(trackerMethod("nodes", pair, parametersOf(AccuracyLevel::Nodes, true)));
   methods.push_back(searchMethod("comb-GA-wl-sh, Table 6.1", pair));
-  methods.push_back(trackerWithTableSearch("nodes, search of Table 6.1", pair));
   methods.push_back(trackerMethod("refined", pair, parametersOf(AccuracyLevel::Refined, true)));
   methods.push_back(trackerMethod("certified", pair, parametersOf(AccuracyLevel::Certified, true)));
   methods.push_back(
@@ -192,7 +177,9 @@ std::shared_ptr<const BodyMesh> loadBody(const std::string& folder, const std::s
   const std::string path = folder + "/" + name + ".stl";
   BodyMeshOptions options;
   options.max_edge_length = max_edge_length;
-  return std::make_shared<const BodyMesh>(name, repairMesh(importMesh(path), {}, path).mesh, options);
+  auto body = std::make_shared<const BodyMesh>(name, repairMesh(importMesh(path), {}, path).mesh, options);
+  body->attach(std::make_unique<BodyGrid>(*body, makeGridNodes(body->surface(), options, name)));
+  return body;
 }
 
 }  // namespace concave_distance::benchmark

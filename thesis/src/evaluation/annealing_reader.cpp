@@ -6,10 +6,8 @@
 namespace concave_distance::detail {
 namespace {
 
-constexpr std::pair<const char*, DescentMoves> kDescentMoves[] = {
-    {"one_node", DescentMoves::OneNode},
-    {"both_nodes", DescentMoves::BothNodes},
-    {"one_node_along_edges", DescentMoves::OneNodeAlongEdges}};
+constexpr std::pair<const char*, DescentMoves> kDescentMoves[] = {{"one_node", DescentMoves::OneNode},
+                                                                  {"both_nodes", DescentMoves::BothNodes}};
 constexpr std::pair<const char*, AnnealingMove> kAnnealingMoves[] = {
     {"new_point", AnnealingMove::NewPoint}, {"random_move", AnnealingMove::RandomMove}};
 

@@ -141,13 +141,7 @@ void readTracker(const YamlValue& value, TrackerMethod& method) {
   if (auto v = map.take("forgets")) method.forgets = v->boolean();
   PairSettings settings;
   settings.tracker = method.parameters;
-  const auto read_search = [&](const YamlValue& search, GeneticParameters& genetic) {
-    CombGaParameters read(genetic);
-    readCombGa(search, read);
-    (&genetic == &settings.tracker.cold ? method.cold : method.warm) = read;
-    genetic = partOfCore(read);
-  };
-  detail::readPairSettings(map, settings, read_search);
+  detail::readPairSettings(map, settings);
   map.finish();
   method.parameters = settings.tracker;
 }
@@ -170,11 +164,7 @@ struct Validator {
   const std::string where;
   void operator()(const MultiStartParameters&) const {}
   void operator()(const EnumerationMethod&) const {}
-  void operator()(const TrackerMethod& method) const {
-    method.parameters.validate(where);
-    method.coldSearch().validate(where + ".cold");
-    method.warmSearch().validate(where + ".warm");
-  }
+  void operator()(const TrackerMethod& method) const { method.parameters.validate(where); }
   void operator()(const SearchMethod& method) const { std::visit(*this, method); }
   template <typename Parameters>
   void operator()(const Parameters& parameters) const {

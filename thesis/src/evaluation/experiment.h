@@ -21,12 +21,6 @@ struct EnumerationMethod {};
 struct TrackerMethod {
   TrackerParameters parameters;
   bool forgets = false;  ///< every instant is solved cold
-  /// What searches where the parameters' own cold and warm do not say it all; empty: these.
-  std::optional<CombGaParameters> cold;
-  std::optional<CombGaParameters> warm;
-
-  CombGaParameters coldSearch() const { return cold.value_or(CombGaParameters(parameters.cold)); }
-  CombGaParameters warmSearch() const { return warm.value_or(CombGaParameters(parameters.warm)); }
 };
 
 /// Any algorithm of the thesis, and this package's own tracker.

@@ -62,10 +62,9 @@ GeneticResult InheritingSearch::search(const Eigen::Isometry3d& a_from_b) {
   Step step = is_first_ ? first_ : further_;
   const GeneticResult result = run(objective, step);
   is_first_ = false;
-  identifyNiches(workspace_->population, step.radii.niche, workspace_->metric, workspace_->niches,
-                 workspace_->order);
+  identifyNiches(workspace_->population, step.radii.niche, workspace_->metric, niches_, workspace_->order);
   known_.clear();
-  for (const IdentifiedNiche& niche : workspace_->niches) known_.push_back(niche.best);
+  for (const IdentifiedNiche& niche : niches_) known_.push_back(niche.best);
   motion_.extrapolate(further_.radii.niche, workspace_->metric, known_);
   handOn(further_);
   return result;
@@ -75,7 +74,8 @@ void InheritingSearch::handOn(const Step& next) {
   if (guess_.fixed_per_niche) {
     inheritFixedCount(known_, *guess_.fixed_per_niche, inherited_);
   } else {
-    inherit(known_, guess_.inheritance, fitnessEpsilon(next.genetic(), *a_, *b_), inherited_, scratch_);
+    inherit(known_, guess_.inheritance, next.genetic().fitness_epsilon * fitnessEpsilon(*a_, *b_), inherited_,
+            scratch_);
   }
 }
 

@@ -8,9 +8,9 @@
 #include "first_guess.h"
 #include "island_workspaces.h"
 #include "niche_motion.h"
-#include "search/niche_identification.h"
 #include "search_method.h"
 #include "thesis/src/genetic/comb_ga.h"
+#include "thesis/src/genetic/niche_identification.h"
 
 namespace concave_distance::evaluation {
 
@@ -26,7 +26,7 @@ class InheritingSearch {
 
   GeneticResult search(const Eigen::Isometry3d& a_from_b);
   /// Of the final population, the nearest first.
-  const std::vector<IdentifiedNiche>& niches() const { return workspace_->niches; }
+  const std::vector<IdentifiedNiche>& niches() const { return niches_; }
 
  private:
   /// Of one instant.
@@ -49,6 +49,7 @@ class InheritingSearch {
   SearchWorkspace* workspace_;
   IslandWorkspaces islands_;
   NicheMotion motion_;
+  std::vector<IdentifiedNiche> niches_;
   std::vector<TrialPoint> known_;
   std::vector<TrialPoint> inherited_;
   std::vector<double> scratch_;

@@ -8,13 +8,11 @@
 #include <optional>
 #include <utility>
 
-#include "comb_ga_tracker.h"
 #include "concave_distance/tracking/pair_tracker.h"
 #include "enumeration.h"
 #include "inheriting_search.h"
 #include "search/automatic_radii.h"
 #include "search/grid/body_grid.h"
-#include "search/niche_identification.h"
 
 namespace concave_distance::evaluation {
 namespace {
@@ -71,11 +69,11 @@ class SearchFollower {
       const SearchOutcome outcome = searchPair(objective, *method_, radii_, engine_, *workspace_);
       answer.distance = std::sqrt(outcome.best.squared_distance);
       take(outcome.cost, answer);
-      identifyNiches(workspace_->population, radii_.niche, workspace_->metric, workspace_->niches,
-                     workspace_->order);
+      identifyNiches(workspace_->population, radii_.niche, workspace_->metric, niches_, workspace_->order);
     }
-    answer.niches = workspace_->niches.size();
-    answer.places = placesOf(*scene_, workspace_->niches, workspace_->basins.minima());
+    const std::vector<IdentifiedNiche>& niches = genetic_ ? genetic_->niches() : niches_;
+    answer.niches = niches.size();
+    answer.places = placesOf(*scene_, niches, workspace_->basins.minima());
   }
 
  private:
@@ -84,24 +82,25 @@ class SearchFollower {
   RandomEngine engine_;  ///< of all but a GA, which has its own
   SearchWorkspace* workspace_;
   NicheRadii radii_;
+  std::vector<IdentifiedNiche> niches_;  ///< of all but a GA
   std::optional<InheritingSearch> genetic_;
 };
 
-/// @param Tracker PairTracker or CombGaTracker
-template <typename Tracker>
 class TrackerFollower {
  public:
-  TrackerFollower(bool forgets, std::unique_ptr<Tracker> tracker)
-      : forgets_(forgets), tracker_(std::move(tracker)) {}
+  TrackerFollower(const TrackerMethod& method, const SceneTruth& scene, std::uint64_t seed)
+      : forgets_(method.forgets),
+        accuracy_(method.parameters.accuracy),
+        tracker_("evaluate", scene.a, scene.b, withSeed(method.parameters, seed)) {}
 
   void operator()(const InstantTruth& instant, Answer& answer) {
-    if (forgets_) tracker_->reset();
-    tracker_->update(instant.a_from_b, instant.time, solution_);
+    if (forgets_) tracker_.reset();
+    tracker_.update(instant.a_from_b, instant.time, solution_);
     answer.distance = solution_.distance;
-    answer.of_nodes = tracker_->parameters().accuracy == AccuracyLevel::Nodes;
+    answer.of_nodes = accuracy_ == AccuracyLevel::Nodes;
     answer.niches = solution_.niches.size();
     take(solution_.cost, answer);
-    answer.found_by_proof = provesDistance(tracker_->parameters().accuracy) && solution_.search_miss;
+    answer.found_by_proof = provesDistance(accuracy_) && solution_.search_miss;
     for (const TrackedNiche& niche : solution_.niches) {
       if (niche.distance > instant.niche_cutoff) break;  // ascending; beyond, no truth is known
       answer.places.reported.push_back({niche.witness.triangle_a, niche.witness.triangle_b, niche.distance});
@@ -110,8 +109,14 @@ class TrackerFollower {
   }
 
  private:
+  static TrackerParameters withSeed(TrackerParameters parameters, std::uint64_t seed) {
+    parameters.seed = seed;
+    return parameters;
+  }
+
   bool forgets_;
-  std::unique_ptr<Tracker> tracker_;
+  AccuracyLevel accuracy_;
+  PairTracker tracker_;
   PairSolution solution_;
 };
 
@@ -120,27 +125,12 @@ void enumerate(const SceneTruth& scene, const InstantTruth& instant, Answer& ans
   answer.evaluations = gridOf(*scene.a).graph().nodeCount() * gridOf(*scene.b).graph().nodeCount();
 }
 
-template <typename Tracker>
-Follower followerWith(bool forgets, std::unique_ptr<Tracker> tracker) {
-  return [follower = std::make_shared<TrackerFollower<Tracker>>(forgets, std::move(tracker))](
-             const InstantTruth& instant, Answer& answer) { (*follower)(instant, answer); };
-}
-
-Follower trackerOf(const TrackerMethod& method, const SceneTruth& scene, std::uint64_t seed) {
-  TrackerParameters parameters = method.parameters;
-  parameters.seed = seed;
-  if (method.cold || method.warm) {
-    return followerWith(method.forgets,
-                        std::make_unique<CombGaTracker>("evaluate", scene.a, scene.b, parameters,
-                                                        method.coldSearch(), method.warmSearch()));
-  }
-  return followerWith(method.forgets,
-                      std::make_unique<PairTracker>("evaluate", scene.a, scene.b, parameters));
-}
-
 Follower followerOf(const Method& method, const MotionOptions& motion, const SceneTruth& scene,
                     std::uint64_t seed, SearchWorkspace& workspace) {
-  if (const auto* tracker = std::get_if<TrackerMethod>(&method)) return trackerOf(*tracker, scene, seed);
+  if (const auto* tracker = std::get_if<TrackerMethod>(&method)) {
+    return [follower = std::make_shared<TrackerFollower>(*tracker, scene, seed)](
+               const InstantTruth& instant, Answer& answer) { (*follower)(instant, answer); };
+  }
   if (const auto* search = std::get_if<SearchMethod>(&method)) {
     return SearchFollower(*search, motion, scene, seed, workspace);
   }

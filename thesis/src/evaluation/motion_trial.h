@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "niche_questions.h"
+#include "thesis/src/genetic/niche_identification.h"
 #include "trial.h"
 
 namespace concave_distance::evaluation {

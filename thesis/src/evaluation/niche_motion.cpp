@@ -42,7 +42,7 @@ NicheMotion::Path NicheMotion::pathTo(const TrialPoint& niche, double radius, Pa
   const Path* nearest = nullptr;
   double least = radius;
   for (const Path& path : paths_) {
-    const double distance = metric.distanceWithin(path.places[0], niche, least);
+    const double distance = metric.distance(path.places[0], niche);
     if (distance <= least) {
       least = distance;
       nearest = &path;

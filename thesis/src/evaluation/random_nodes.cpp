@@ -11,6 +11,7 @@
 #include "mesh/surface/mesh_topology.h"
 #include "point_bins.h"
 #include "search/grid/graph_regions.h"
+#include "thesis/src/grid/search_grid.h"
 
 namespace concave_distance {
 namespace {
@@ -154,7 +155,6 @@ SearchNodes makeRandomNodes(const SurfaceMesh& surface, const MeshTopology& topo
     }
   }
   made.graph = buildNodeGraph(std::move(positions), neighbours);
-  made.levels = buildNodeLevels(made.graph);
   thinned.nearest.resize(surface.vertexCount());
   made.graph_node_of_vertex = std::move(thinned.nearest);
   return made;

@@ -11,7 +11,6 @@ CombGaParameters thesisGeneticParameters(NichingScheme scheme) {
   parameters.mating = MatingMethod::MeshNearFitter;
   parameters.mating_restriction = scheme == NichingScheme::Sharing;
   parameters.strict_mating_restriction = true;
-  parameters.descent_moves = DescentMoves::OneNodeAlongEdges;
   parameters.descend_first_population = false;
   parameters.exchange_probability = 0.0;
   parameters.random_immigrants = 0;
@@ -24,7 +23,6 @@ CombGaParameters thesisGeneticParameters(NichingScheme scheme) {
 AnnealingParameters thesisAnnealingParameters() {
   AnnealingParameters parameters;
   parameters.new_point_probability = 0.0;
-  parameters.descent_moves = DescentMoves::OneNodeAlongEdges;
   return parameters;
 }
 

@@ -19,13 +19,12 @@ enum class RowBase : std::uint8_t {
 
 /// comb-GA as the thesis has it: no elite, no exchange of genes, no immigrants, niches are not conserved, no
 /// epsilon in the fitness; each gene mutates with p_m, to a random node (Carretero, sec. 3.3.2.c); both
-/// children near the fitter parent (sec. 3.3.2.b); descents along
-/// edges (3.1.5), after mutation and not before the first selection (fig. 2.13); mating restriction with
-/// sharing only (4.7), and strict (4.6.3).
+/// children near the fitter parent (sec. 3.3.2.b); descents after mutation and not before the first selection
+/// (fig. 2.13); mating restriction with sharing only (4.7), and strict (4.6.3).
 CombGaParameters thesisGeneticParameters(NichingScheme scheme);
 
 /// comb-SA as the thesis has it: random moves with variable displacement (sec. 5.3.1.b), no new points
-/// between them, descents along edges.
+/// between them.
 AnnealingParameters thesisAnnealingParameters();
 
 /// (6.7), (6.8) alone: a niche whose share is rounded to nothing is not handed on.

@@ -5,6 +5,7 @@
 #include "base/csv_writer.h"
 #include "base/parameter.h"
 #include "inheriting_search.h"
+#include "search/genetic_parameter_table.h"
 #include "thesis/src/genetic/comb_ga_parameter_table.h"
 #include "tracking/tracker_parameter_table.h"
 
@@ -63,8 +64,6 @@ const char* nameOf(DescentMoves moves) {
       return "one_node";
     case DescentMoves::BothNodes:
       return "both_nodes";
-    case DescentMoves::OneNodeAlongEdges:
-      return "one_node_along_edges";
   }
   return "";
 }
@@ -149,8 +148,8 @@ struct Describer {
     RowParameters changes;
     if (method.forgets) changes.emplace_back("forgets", "true");
     addChanges(trackerParameters(), method.parameters, shipped, "", changes);
-    addChanges(combGaParameters(), method.coldSearch(), CombGaParameters(shipped.cold), "cold.", changes);
-    addChanges(combGaParameters(), method.warmSearch(), CombGaParameters(shipped.warm), "warm.", changes);
+    addChanges(geneticParameters(), method.parameters.cold, shipped.cold, "cold.", changes);
+    addChanges(geneticParameters(), method.parameters.warm, shipped.warm, "warm.", changes);
     return changes;
   }
 

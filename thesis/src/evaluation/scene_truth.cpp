@@ -16,11 +16,14 @@
 #include "random_nodes.h"
 #include "search/grid/body_grid.h"
 #include "thesis/src/continuous/constraint_tree_file.h"
+#include "thesis/src/grid/grid_nodes.h"
 #include "volume_nodes.h"
 
 namespace concave_distance::evaluation {
 namespace {
 
+/// The matrices of a mesh metric hold every node of an experiment.
+constexpr std::size_t kMatrixNodeLimit = 65535;
 constexpr double kRegion = 1.1;
 /// Niches as near as this to the nearest are the optimum again, at another corner of the same rim.
 constexpr double kTie = 1.001;
@@ -45,10 +48,11 @@ std::shared_ptr<const BodyMesh> loadBody(const std::string& path, const Experime
   if (!scene.thesis_scene.empty()) repair.weld_tolerance = 0.0;  // made in double precision
   BodyMeshOptions options;
   options.max_edge_length = scene.max_edge_length;
+  options.matrix_node_limit = kMatrixNodeLimit;
   const std::string name = std::filesystem::path(path).stem().string();
   const auto body =
       std::make_shared<const BodyMesh>(name, repairMesh(importMesh(path), repair, path).mesh, options);
-  SearchNodes nodes = makeSearchNodes(body->surface(), options, name);
+  SearchNodes nodes = makeGridNodes(body->surface(), options, name);
   if (scene.nodes == NodeSource::Volume) {
     nodes = makeVolumeNodes(*body, std::move(nodes), scene.lattice_edge.value_or(*scene.max_edge_length));
   } else if (scene.nodes != NodeSource::Mesh) {

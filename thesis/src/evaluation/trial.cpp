@@ -9,7 +9,6 @@
 #include "niche_questions.h"
 #include "optimum_basin.h"
 #include "search/grid/body_grid.h"
-#include "search/niche_identification.h"
 #include "thesis/src/continuous/continuous_annealing.h"
 #include "thesis/src/continuous/continuous_genetic_search.h"
 
@@ -135,7 +134,7 @@ TrialRecord runCombinatorial(const SearchMethod& method, const SceneTruth& scene
   record.worst_excess = record.distance - truth.node_distance;
   record.cost = outcome.cost;
   record.flops = kFlopsOfAPair * outcome.cost.evaluations;
-  std::vector<IdentifiedNiche>& niches = workspace.niches;
+  std::vector<IdentifiedNiche> niches;
   identifyNiches(workspace.population, radii.niche, workspace.metric, niches, workspace.order);
   record.niches = static_cast<double>(niches.size());
   record.most_niches = static_cast<std::uint32_t>(niches.size());

@@ -173,7 +173,6 @@ SearchNodes makeVolumeNodes(const BodyMesh& body, SearchNodes surface_nodes, dou
     }
   }
   made.graph = buildNodeGraph(std::move(positions), kept);
-  made.levels = buildNodeLevels(made.graph);
   made.original_triangle_of_node = std::move(triangles);
   return made;
 }

@@ -4,8 +4,10 @@
 #include <functional>
 #include <vector>
 
+#include "base/random_engine.h"
 #include "comb_ga_parameters.h"
-#include "search/genetic_state.h"
+#include "search/pair_objective.h"
+#include "search/search_workspace.h"
 
 namespace concave_distance {
 
@@ -28,14 +30,12 @@ struct GeneticResult {
 
 /// Runs comb-GA (Carretero, ch. 3 and 4) in any of its variants; block order of fig. 4.3 (sharing between
 /// evaluation and selection) or fig. 4.4 (crowding between mating and mutation). Initial population,
-/// final one and minima as of geneticSearch(), which this is with the core's parameters. Never throws.
+/// final one and minima as of geneticSearch(), which this is with the default parameters. Never throws.
 /// @param parameters validated
 /// @param radii from automaticRadii()
 /// @param observer called once a generation when not empty
-/// @param limit, couples as of GeneticState
 GeneticResult combGa(const PairObjective& objective, const CombGaParameters& parameters,
                      const NicheRadii& radii, const std::vector<TrialPoint>& inherited, RandomEngine& engine,
-                     SearchWorkspace& workspace, const GenerationObserver& observer = {},
-                     WorkLimit* limit = nullptr, Couples couples = Couples::AsDrawn);
+                     SearchWorkspace& workspace, const GenerationObserver& observer = {});
 
 }  // namespace concave_distance

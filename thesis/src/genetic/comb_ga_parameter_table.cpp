@@ -95,9 +95,7 @@ ParameterTable<G> ofMethods() {
           "it counts as fit as that minimum and stays"),
       choice<G>(
           "descent_moves",
-          Moves{{"one_node", DescentMoves::OneNode},
-                {"both_nodes", DescentMoves::BothNodes},
-                {"one_node_along_edges", DescentMoves::OneNodeAlongEdges}},
+          Moves{{"one_node", DescentMoves::OneNode}, {"both_nodes", DescentMoves::BothNodes}},
           [](auto& g) -> auto& { return g.descent_moves; },
           "`one_node`: a descent moves one node at a time; `both_nodes`: where no such move is left, both at "
           "once"),
@@ -110,14 +108,20 @@ ParameterTable<G> ofMethods() {
 ParameterTable<G> ofNiching() {
   return {
       ofCore("sharing_radius"),
-      ofCore("sharing_exponent"),
-      ofCore("fitness_epsilon"),
+      number<G>(
+          "sharing_exponent", [](auto& g) -> auto& { return g.sharing_exponent; }, "of the sharing function")
+          .above(0.0),
+      number<G>(
+          "fitness_epsilon", [](auto& g) -> auto& { return g.fitness_epsilon; },
+          "differences of distance below this share of the longer grid edge do not count"),
       count<G>(
           "dynamic_niche_limit", [](auto& g) -> auto& { return g.dynamic_niche_limit; },
           "peaks of dynamic sharing")
           .from(1.0),
       ofCore("mating_radius"),
-      ofCore("mating_restriction"),
+      flag<G>(
+          "mating_restriction", [](auto& g) -> auto& { return g.mating_restriction; },
+          "mate within the mating radius"),
       flag<G>(
           "strict_mating_restriction", [](auto& g) -> auto& { return g.strict_mating_restriction; },
           "who finds no partner within the mating radius does not mate; otherwise, after two tries, with "
@@ -137,12 +141,18 @@ ParameterTable<G> ofTheRun() {
           .above(0.0)
           .to(1.0),
       ofCore("random_immigrants"),
-      ofCore("elite_count"),
-      ofCore("conserve_niches"),
+      count<G>(
+          "elite_count", [](auto& g) -> auto& { return g.elite_count; },
+          "best individuals that always survive"),
+      flag<G>(
+          "conserve_niches", [](auto& g) -> auto& { return g.conserve_niches; },
+          "with sharing: the best of every niche survives too"),
       count<G>(
           "convergence_generations", [](auto& g) -> auto& { return g.convergence_generations; },
           "stop after so many generations without change; 0: never early"),
-      ofCore("evaluation_limit"),
+      count<G>(
+          "evaluation_limit", [](auto& g) -> auto& { return g.evaluation_limit; },
+          "no further descent after so many evaluations; 0: no limit"),
   };
 }
 

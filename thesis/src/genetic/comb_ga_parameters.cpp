@@ -5,24 +5,11 @@
 
 namespace concave_distance {
 
-CombGaParameters::CombGaParameters(const GeneticParameters& core)
-    : GeneticParameters(core),
-      scheme(core.niching == NichingMethod::Sharing ? NichingScheme::Sharing
-                                                    : NichingScheme::DeterministicCrowding) {}
-
 void CombGaParameters::validate(const std::string& where) const {
   requireAllowed(combGaParameters(), *this, where);
-  GeneticParameters::validate(where);
-}
-
-GeneticParameters partOfCore(const CombGaParameters& parameters) {
-  GeneticParameters core = parameters;
-  const bool crowds = parameters.scheme == NichingScheme::DeterministicCrowding ||
-                      parameters.scheme == NichingScheme::DeterministicCrowdingWithSelection ||
-                      parameters.scheme == NichingScheme::SimpleCrowding;
-  core.niching = crowds ? NichingMethod::DeterministicCrowding : NichingMethod::Sharing;
-  if (parameters.scheme == NichingScheme::None) core.conserve_niches = false;
-  return core;
+  if (elite_count > population_size) {
+    detail::refuse(where, "elite_count", std::to_string(elite_count), "0 to population_size");
+  }
 }
 
 }  // namespace concave_distance

@@ -17,7 +17,7 @@ enum class MatingMethod : std::uint8_t {
   Genotypic
 };
 
-/// What keeps several niches in a population; two of them are the core's (NichingMethod).
+/// What keeps several niches in a population; the core's search has sharing.
 enum class NichingScheme : std::uint8_t {
   None,
   Sharing,
@@ -56,11 +56,11 @@ enum class Cooling : std::uint8_t {
 };
 
 /// Every parameter of comb-GA (Carretero, ch. 3 and 4), for experiments: the core's, which the node has too,
-/// and what is compared with it. Lengths in metres.
+/// what the core has decided on, and what is compared with it. Lengths in metres.
 struct CombGaParameters : GeneticParameters {
   CombGaParameters() = default;
   /// Makes the parameters of the core's search.
-  explicit CombGaParameters(const GeneticParameters& core);
+  explicit CombGaParameters(const GeneticParameters& core) : GeneticParameters(core) {}
 
   MutationMethod mutation = MutationMethod::RandomMove;
   double final_mutation_probability_factor = 1.0;  ///< variable mutation rate: p_m ends at this multiple
@@ -71,8 +71,12 @@ struct CombGaParameters : GeneticParameters {
   Cooling mutation_radius_cooling = Cooling::Constant;
   SelectionMethod selection = SelectionMethod::StochasticUniversalSampling;
   MatingMethod mating = MatingMethod::Mesh;
-  NichingScheme scheme =
-      NichingScheme::Sharing;  ///< `niching` of files; GeneticParameters::niching is not read
+  NichingScheme scheme = NichingScheme::Sharing;  ///< `niching` of files
+  double sharing_exponent = 1.0;                  ///< alpha_s
+  /// epsilon of the potential fitness 1 / (d^2 + epsilon^2), as a share of the longer of both grids' maximum
+  /// edge lengths. The thesis has none: 0.
+  double fitness_epsilon = 1.0;
+  bool mating_restriction = true;
   LocalOptimization local_optimization = LocalOptimization::Lamarckian;
   DescentMoves descent_moves = DescentMoves::OneNode;
   /// Whether the first population is descended before parents are selected from it. The thesis descends after
@@ -84,15 +88,16 @@ struct CombGaParameters : GeneticParameters {
   bool strict_mating_restriction = false;
   std::uint32_t crowding_factor = 3;  ///< C_f of simple crowding
   double generation_gap = 1.0;        ///< share of the population replaced a generation, (0, 1]
+  std::uint32_t elite_count = 1;      ///< best individuals that always survive
+  bool conserve_niches = true;        ///< with sharing the best of every niche survives too
+  /// No further descent once this many node pairs have been evaluated; what is left of the generation keeps
+  /// its parents, and the run ends. 0: no limit.
+  std::uint64_t evaluation_limit = 0;
   /// Stop when the best and the set of niches have not changed for this many generations; 0: never early.
   std::uint32_t convergence_generations = 0;
 
   /// @throws Error naming the parameter, the value seen and the allowed range
   void validate(const std::string& where) const;
 };
-
-/// Returns what the core's steps read of these parameters. Of its schemes the core's crowding stands for
-/// every one that crowds, its sharing for the others.
-GeneticParameters partOfCore(const CombGaParameters& parameters);
 
 }  // namespace concave_distance

@@ -4,6 +4,43 @@
 
 namespace concave_distance {
 
+void compete(SearchWorkspace& work, Contest contest) {
+  for (std::size_t i = 0; i + 1 < work.offspring.size(); i += 2) {
+    const auto parent = [&](std::size_t k) {
+      return Contestant{work.population[work.selected[k]], work.population_places[work.selected[k]]};
+    };
+    const auto child = [&](std::size_t k) { return Contestant{work.offspring[k], work.offspring_places[k]}; };
+    Contestant first = parent(i);
+    Contestant second = parent(i + 1);
+    contest(first, second, child(i), child(i + 1), work.places, work.metric);
+    work.offspring[i] = first.point;
+    work.offspring_places[i] = first.place;
+    work.offspring[i + 1] = second.point;
+    work.offspring_places[i + 1] = second.place;
+  }
+}
+
+void compete(Contestant& seat, const Contestant& child) {
+  if (child.point.squared_distance < seat.point.squared_distance) {
+    seat = child;
+  }
+}
+
+void competePaired(Contestant& parent_1, Contestant& parent_2, const Contestant& child_1,
+                   const Contestant& child_2, TrialPointTable& places, PairMetric& metric) {
+  const double straight = places.delta(parent_1.place, child_1.place, metric) +
+                          places.delta(parent_2.place, child_2.place, metric);
+  const double crossed = places.delta(parent_1.place, child_2.place, metric) +
+                         places.delta(parent_2.place, child_1.place, metric);
+  if (straight <= crossed) {
+    compete(parent_1, child_1);
+    compete(parent_2, child_2);
+  } else {
+    compete(parent_1, child_2);
+    compete(parent_2, child_1);
+  }
+}
+
 void competeWithCloserParent(Contestant& parent_1, Contestant& parent_2, const Contestant& child_1,
                              const Contestant& child_2, TrialPointTable& places, PairMetric& metric) {
   const auto is_closer_to_first = [&](const Contestant& child) {

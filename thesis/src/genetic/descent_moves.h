@@ -10,13 +10,10 @@ namespace concave_distance {
 
 /// How a descent may move.
 enum class DescentMoves : std::uint8_t {
-  OneNode,  ///< to a neighbour of one node, the other stays (Carretero, sec. 3.1.5); on fine grids also in
-            ///< longer steps
+  OneNode,  ///< to a neighbour of one node, the other stays (Carretero, sec. 3.1.5)
   /// Where no such move is left also to a neighbour of both at once (the thesis's outlook, sec. 7.1): along
   /// parallel edges, whose nodes are pairwise closest, nothing else leads on.
-  BothNodes,
-  /// As OneNode, and on fine grids, too, from neighbour to neighbour: no longer steps (the thesis's).
-  OneNodeAlongEdges
+  BothNodes
 };
 
 /// Descends as descend() does, with these moves. With BothNodes no neighbour of both nodes at once is closer

@@ -25,28 +25,24 @@ NodeIndex nearestNode(const NodeGraph& graph, const Eigen::Vector3d& point) {
 
 /// One node of the path within `radius` of the fitter parent, its last one with as much of the draws as the
 /// others: hence an edge more than the radius.
-NodeIndex nodeWithin(NodeIndex fitter, NodeIndex other, double radius, MeshMetricQuery& query,
-                     double path_bound, RandomEngine& engine) {
-  const double edge = static_cast<double>(query.metric().graph().edges.row(fitter.value)[0].length);
-  return query.nodeTowards(fitter, other, std::min(radius, uniformUnit(engine) * (radius + edge)),
-                           path_bound);
+NodeIndex nodeWithin(NodeIndex fitter, NodeIndex other, double radius, const MeshMetric& metric,
+                     RandomEngine& engine) {
+  const double edge = static_cast<double>(metric.graph().edges.row(fitter.value)[0].length);
+  return metric.nodeTowards(fitter, other, std::min(radius, uniformUnit(engine) * (radius + edge)));
 }
 
 /// Both children within a radius of the fitter parent, `share` of the way to the other.
-Genes mateNearFitter(NodeIndex fitter, NodeIndex other, double share, MeshMetricQuery& query,
-                     double path_bound, RandomEngine& engine) {
+Genes mateNearFitter(NodeIndex fitter, NodeIndex other, double share, const MeshMetric& metric,
+                     RandomEngine& engine) {
   if (fitter == other) {
     return {fitter, other};
   }
-  if (query.metric().hasMatrices()) {
-    path_bound = std::numeric_limits<double>::infinity();
-  }
-  const double length = query.distanceWithin(fitter, other, path_bound);
+  const double length = metric.distance(fitter, other);
   if (!std::isfinite(length)) {
     return {fitter, other};
   }
-  const NodeIndex first = nodeWithin(fitter, other, share * length, query, path_bound, engine);
-  return {first, nodeWithin(fitter, other, share * length, query, path_bound, engine)};
+  const NodeIndex first = nodeWithin(fitter, other, share * length, metric, engine);
+  return {first, nodeWithin(fitter, other, share * length, metric, engine)};
 }
 
 Genes mateOnLine(NodeIndex fitter, NodeIndex other, const Shares& shares, const NodeGraph& graph) {
@@ -66,13 +62,13 @@ Genes mateIndices(NodeIndex fitter, NodeIndex other, const Shares& shares) {
 }  // namespace
 
 Children mateBy(MatingMethod method, const PairObjective& objective, const TrialPoint& parent_1,
-                const TrialPoint& parent_2, PairMetric& metric, double path_bound, RandomEngine& engine) {
-  if (method == MatingMethod::Mesh) return mate(parent_1, parent_2, metric, path_bound, engine);
+                const TrialPoint& parent_2, PairMetric& metric, RandomEngine& engine) {
+  if (method == MatingMethod::Mesh) return mate(parent_1, parent_2, metric, engine);
   const Couple couple(parent_1, parent_2);
   const auto [fitter, other, share] = couple;
   if (method == MatingMethod::MeshNearFitter) {
-    const Genes a = mateNearFitter(fitter.node_a, other.node_a, share, metric.onA(), path_bound, engine);
-    const Genes b = mateNearFitter(fitter.node_b, other.node_b, share, metric.onB(), path_bound, engine);
+    const Genes a = mateNearFitter(fitter.node_a, other.node_a, share, metric.onA(), engine);
+    const Genes b = mateNearFitter(fitter.node_b, other.node_b, share, metric.onB(), engine);
     return childrenOf(a, b);
   }
   const auto gene = [&](NodeIndex from, NodeIndex to, const NodeGraph& graph) {

@@ -15,6 +15,6 @@ namespace concave_distance {
 ///   enumeration: O(nodes).
 /// - Genotypic, the same: the node whose index is nearest to t of the difference of both indices.
 Children mateBy(MatingMethod method, const PairObjective& objective, const TrialPoint& parent_1,
-                const TrialPoint& parent_2, PairMetric& metric, double path_bound, RandomEngine& engine);
+                const TrialPoint& parent_2, PairMetric& metric, RandomEngine& engine);
 
 }  // namespace concave_distance

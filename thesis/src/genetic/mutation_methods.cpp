@@ -29,8 +29,8 @@ bool mutateByChance(TrialPoint& point, MutationMethod method, double probability
     return is_hit;
   }
   const bool is_b_hit = uniformUnit(engine) < probability;
-  if (is_hit) point.node_a = randomNode(metric.onA().metric().graph(), engine);
-  if (is_b_hit) point.node_b = randomNode(metric.onB().metric().graph(), engine);
+  if (is_hit) point.node_a = randomNode(metric.onA().graph(), engine);
+  if (is_b_hit) point.node_b = randomNode(metric.onB().graph(), engine);
   if (is_hit || is_b_hit) point.squared_distance = kNotComputed;
   return is_hit || is_b_hit;
 }

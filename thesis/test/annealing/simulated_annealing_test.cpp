@@ -38,9 +38,8 @@ struct Annealing {
     TrialPoint last;
     run(parameters, seed, [&](const AnnealingRecord& record) {
       if (record.iteration > 0) {
-        longest = std::max(
-            {longest, workspace.metric.onA().distanceWithin(last.node_a, record.current->node_a, kInfinity),
-             workspace.metric.onB().distanceWithin(last.node_b, record.current->node_b, kInfinity)});
+        longest = std::max({longest, workspace.metric.onA().distance(last.node_a, record.current->node_a),
+                            workspace.metric.onB().distance(last.node_b, record.current->node_b)});
       }
       last = *record.current;
     });
@@ -152,7 +151,7 @@ TEST(SimulatedAnnealing, VariableDisplacementsShrinkWithTheAcceptanceProbability
   annealing.run(parameters, 4, [&](const AnnealingRecord& record) {
     if (record.iteration > 0) {
       const double displacement =
-          annealing.workspace.metric.onA().distanceWithin(last.node_a, record.current->node_a, kInfinity);
+          annealing.workspace.metric.onA().distance(last.node_a, record.current->node_a);
       EXPECT_LE(displacement, probability * 1.0 + 1e-6);
       moved += displacement > 0.0 ? 1 : 0;
     }

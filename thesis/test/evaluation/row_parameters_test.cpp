@@ -62,7 +62,7 @@ void expectThesisGenetic(const Values& values) {
   EXPECT_EQ(values.at("fitness_epsilon"), "0");
   EXPECT_EQ(values.at("mutation"), "random_nodes");
   EXPECT_EQ(values.at("mating"), "mesh_near_fitter");
-  EXPECT_EQ(values.at("descent_moves"), "one_node_along_edges");
+  EXPECT_EQ(values.at("descent_moves"), "one_node");
   EXPECT_EQ(values.at("selection"), "stochastic_universal_sampling");
   EXPECT_EQ(values.at("strict_mating_restriction"), "true");
   EXPECT_EQ(values.at("generation_gap"), "1");
@@ -83,7 +83,7 @@ TEST_F(Rows, OfTheThesisHaveNothingOfOurOwn) {
     EXPECT_EQ(values.at("new_point_probability"), "0");
     EXPECT_EQ(values.at("move"), "random_move");
     EXPECT_EQ(values.at("variable_displacement"), "true");
-    EXPECT_EQ(values.at("descent_moves"), "one_node_along_edges");
+    EXPECT_EQ(values.at("descent_moves"), "one_node");
   }
 }
 
@@ -98,14 +98,14 @@ TEST_F(Rows, OfOursHaveTheDefaultsOfThisPackage) {
 }
 
 TEST_F(Rows, ThatAreShippedAreWhatTheTrackerShips) {
-  const Values values = valuesOfOnly("algorithm: comb-GA-wl-dc, base: shipped");
+  const Values values = valuesOfOnly("algorithm: comb-GA-wl-sh, base: shipped");
   // TrackerParameters(): doc/expert_settings.md, `cold`.
-  EXPECT_EQ(values.at("niching"), "deterministic_crowding");
-  EXPECT_EQ(values.at("population_size"), "300") << "not that of `common`";
+  EXPECT_EQ(values.at("niching"), "sharing");
+  EXPECT_EQ(values.at("population_size"), "60") << "not that of `common`";
   EXPECT_EQ(values.at("random_immigrants"), "20");
-  EXPECT_EQ(values.at("mating_restriction"), "false");
+  EXPECT_EQ(values.at("mating_restriction"), "true");
   EXPECT_EQ(values.at("niche_radius"), "auto");
-  EXPECT_THROW(experimentOf("  - {name: row, algorithm: comb-GA-wl-sh, base: shipped}\n"), Error);
+  EXPECT_THROW(experimentOf("  - {name: row, algorithm: comb-GA-wl-dc, base: shipped}\n"), Error);
   EXPECT_THROW(experimentOf("  - {name: row, algorithm: cont-GA-wl, base: shipped}\n"), Error);
 }
 

@@ -11,6 +11,7 @@
 #include "search/grid/body_grid.h"
 #include "support/concave_shapes.h"
 #include "thesis/src/evaluation/enumeration.h"
+#include "thesis/src/grid/grid_nodes.h"
 
 namespace concave_distance::volume_nodes_test {
 namespace {
@@ -22,7 +23,7 @@ std::shared_ptr<const BodyMesh> bodyOf(SurfaceMesh surface, double edge) {
 }
 
 SearchNodes surfaceNodes(const BodyMesh& body) {
-  return makeSearchNodes(body.surface(), body.options(), "body");
+  return makeGridNodes(body.surface(), body.options(), "body");
 }
 
 SearchNodes volumeOf(const BodyMesh& body, double lattice_edge) {

@@ -43,20 +43,17 @@ CombGaParameters smallRun(NichingScheme scheme) {
 
 TEST(CombGa, IsTheCoresSearchWithTheCoresParameters) {
   Search search(test::facingCombs());
-  for (const NichingMethod niching : {NichingMethod::Sharing, NichingMethod::DeterministicCrowding}) {
-    GeneticParameters core = smallRun(NichingScheme::Sharing);
-    core.niching = niching;
-    search.workspace.basins.clear();
-    RandomEngine engine(19);
-    GeneticState state(search.objective, core, search.radii, engine, search.workspace);
-    const SearchCost cost = geneticSearch(state, {});
-    const std::vector<TrialPoint> population = search.workspace.population;
-    const GeneticResult result = search.run(CombGaParameters(core), 19);
-    EXPECT_TRUE(test::samePopulation(population, search.workspace.population));
-    EXPECT_EQ(result.cost.evaluations, cost.evaluations);
-    EXPECT_EQ(result.cost.descents_joined, cost.descents_joined);
-    EXPECT_EQ(result.cost.children, cost.children);
-  }
+  const CombGaParameters parameters = smallRun(NichingScheme::Sharing);
+  search.workspace.basins.clear();
+  RandomEngine engine(19);
+  GeneticState state(search.objective, parameters, search.radii, engine, search.workspace);
+  const SearchCost cost = geneticSearch(state, {});
+  const std::vector<TrialPoint> population = search.workspace.population;
+  const GeneticResult result = search.run(parameters, 19);
+  EXPECT_TRUE(test::samePopulation(population, search.workspace.population));
+  EXPECT_EQ(result.cost.evaluations, cost.evaluations);
+  EXPECT_EQ(result.cost.descents_joined, cost.descents_joined);
+  EXPECT_EQ(result.cost.children, cost.children);
 }
 
 TEST(CombGa, OneSeedGivesOneAnswerWhateverRanBefore) {
@@ -188,8 +185,8 @@ TEST(CombGa, StopsWhenNothingChangesAnyMore) {
 // The measure of Carretero, sec. 5.1.1: the enumerated optimum. The share asked for is below what is measured
 // (49 or 50 of 50), so that a change of the random stream does not fail the test.
 TEST(CombGa, FindsTheEnumeratedOptimum) {
-  for (const bool on_demand : {false, true}) {
-    Search search(test::facingCombs(0.1, on_demand ? 0 : 65535));
+  for (const bool is_thinned : {false, true}) {  // the mesh metric
+    Search search(test::facingCombs(0.1, is_thinned ? 100 : 65535));
     const TrialPoint optimum =
         test::enumerateNodePairs(*search.scene.a, *search.scene.b, search.scene.a_from_b);
     for (const NichingScheme scheme : kSchemes) {

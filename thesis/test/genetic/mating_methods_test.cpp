@@ -20,21 +20,20 @@ RC_GTEST_PROP(MeshMating, NearTheFitterParentBothChildrenStayWithinItsRadius, ()
   RandomEngine engine(*rc::gen::arbitrary<std::uint64_t>());
   const TrialPoint x = c.drawPoint(engine);
   const TrialPoint y = c.drawPoint(engine);
-  const auto [first, second] =
-      mateBy(MatingMethod::MeshNearFitter, c.objective, x, y, c.metric, kInfinity, engine);
+  const auto [first, second] = mateBy(MatingMethod::MeshNearFitter, c.objective, x, y, c.metric, engine);
   const TrialPoint& fitter = x < y ? x : y;
   const TrialPoint& other = x < y ? y : x;
   const double share = fitterShare(fitter.squared_distance, other.squared_distance);
   for (const TrialPoint& child : {first, second}) {
     for (const bool on_a : {true, false}) {
-      MeshMetricQuery& query = on_a ? c.metric.onA() : c.metric.onB();
+      const MeshMetric& metric = on_a ? c.metric.onA() : c.metric.onB();
       const NodeIndex from = on_a ? fitter.node_a : fitter.node_b;
       const NodeIndex to = on_a ? other.node_a : other.node_b;
       const NodeIndex node = on_a ? child.node_a : child.node_b;
-      const double length = query.distanceWithin(from, to, kInfinity);
-      const double gone = query.distanceWithin(from, node, kInfinity);
+      const double length = metric.distance(from, to);
+      const double gone = metric.distance(from, node);
       RC_ASSERT(gone <= share * length + kRounding * length);
-      const double left = query.distanceWithin(node, to, kInfinity);
+      const double left = metric.distance(node, to);
       RC_ASSERT(std::abs(gone + left - length) <= kRounding * length);
     }
   }
@@ -53,10 +52,9 @@ TEST(MeshMating, NearTheFitterParentTheLastNodeWithinTheRadiusIsDrawnToo) {
     const auto edges = gridOf(*c.scene.a).graph().edges.row(x.node_a.value);
     y.node_a = gridOf(*c.scene.a).graph().edges.row(edges[0].to.value)[0].to;
     if (y.node_a == x.node_a) continue;
-    const double length = c.metric.onA().distanceWithin(x.node_a, y.node_a, kInfinity);
+    const double length = c.metric.onA().distance(x.node_a, y.node_a);
     if (length < 1.9 * static_cast<double>(edges[0].length)) continue;
-    const Children children =
-        mateBy(MatingMethod::MeshNearFitter, c.objective, x, y, c.metric, kInfinity, engine);
+    const Children children = mateBy(MatingMethod::MeshNearFitter, c.objective, x, y, c.metric, engine);
     (children.first.node_a == std::min(x, y).node_a ? at_parent : beyond) += 1;
   }
   ASSERT_GT(at_parent + beyond, 100);
@@ -70,8 +68,7 @@ RC_GTEST_PROP(PhenotypicMating, ChildrenAreTheNodesNearestToTheLineBetweenThePar
   RandomEngine engine(seed);
   const TrialPoint x = c.drawPoint(engine);
   const TrialPoint y = c.drawPoint(engine);
-  const auto [first, second] =
-      mateBy(MatingMethod::Phenotypic, c.objective, x, y, c.metric, kInfinity, engine);
+  const auto [first, second] = mateBy(MatingMethod::Phenotypic, c.objective, x, y, c.metric, engine);
   const NodeGraph& graph = gridOf(*c.scene.a).graph();
   const Eigen::Vector3d from = graph.positions[std::min(x, y).node_a.value];
   const Eigen::Vector3d displacement = graph.positions[std::max(x, y).node_a.value] - from;
@@ -95,8 +92,7 @@ RC_GTEST_PROP(GenotypicMating, ChildrenHaveIndicesBetweenTheParents, ()) {
   RandomEngine engine(*rc::gen::arbitrary<std::uint64_t>());
   const TrialPoint x = c.drawPoint(engine);
   const TrialPoint y = c.drawPoint(engine);
-  const auto [first, second] =
-      mateBy(MatingMethod::Genotypic, c.objective, x, y, c.metric, kInfinity, engine);
+  const auto [first, second] = mateBy(MatingMethod::Genotypic, c.objective, x, y, c.metric, engine);
   for (const TrialPoint& child : {first, second}) {
     RC_ASSERT(std::min(x.node_a, y.node_a).value <= child.node_a.value);
     RC_ASSERT(std::max(x.node_a, y.node_a).value >= child.node_a.value);
@@ -111,7 +107,7 @@ TEST(Mating, ParentsOnOnePlaceHaveTheirChildrenThere) {
   const TrialPoint x = c.drawPoint(engine);
   for (const MatingMethod method :
        {MatingMethod::MeshNearFitter, MatingMethod::Phenotypic, MatingMethod::Genotypic}) {
-    const auto [first, second] = mateBy(method, c.objective, x, x, c.metric, kInfinity, engine);
+    const auto [first, second] = mateBy(method, c.objective, x, x, c.metric, engine);
     EXPECT_TRUE(samePlace(first, x));
     EXPECT_TRUE(samePlace(second, x));
     EXPECT_TRUE(std::isnan(first.squared_distance)) << "a child's distance is not computed yet";

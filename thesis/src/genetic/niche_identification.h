@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "concave_distance/search/trial_point.h"
-#include "pair_metric.h"
+#include "search/pair_metric.h"
 
 namespace concave_distance {
 

@@ -1,4 +1,4 @@
-#include "search/grid/search_grid.h"
+#include "thesis/src/grid/search_grid.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>

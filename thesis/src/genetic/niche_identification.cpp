@@ -20,7 +20,7 @@ void identifyNiches(const std::vector<TrialPoint>& population, double niche_radi
     const TrialPoint& point = population[individual];
     if (last_point == nullptr || !samePlace(*last_point, point)) {
       const auto found = std::find_if(niches.begin(), niches.end(), [&](const IdentifiedNiche& niche) {
-        return metric.distanceWithin(niche.best, point, niche_radius) <= niche_radius;
+        return metric.distance(niche.best, point) <= niche_radius;
       });
       if (found != niches.end()) {
         last_niche = &*found;
