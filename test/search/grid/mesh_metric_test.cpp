@@ -191,7 +191,9 @@ TEST(MeshMetric, NodeTowardsIsTheLastNodeWithinTheDistanceOnAShortestPath) {
       const double after = metric.distance(node, to);
       EXPECT_NEAR(before + after, length, length * 0x1.0p-22);
       EXPECT_LE(before, distance + length * 0x1.0p-22);
-      if (after > 0.0) EXPECT_GE(before, distance - longest_edge * (1.0 + 0x1.0p-22));
+      if (after > 0.0) {
+        EXPECT_GE(before, distance - longest_edge * (1.0 + 0x1.0p-22));
+      }
     }
   }
 }

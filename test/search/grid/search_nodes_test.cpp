@@ -72,7 +72,9 @@ TEST(SearchNodes, OfAnAutomaticGridAreAsManyAsTheSearchWants) {
     for (std::uint32_t vertex = 0; vertex < surface.vertexCount(); ++vertex) {
       const NodeIndex node = nodes.graphNode(NodeIndex{vertex});
       ASSERT_LT(node.value, nodes.graph.nodeCount());
-      if (!nodes.thinned()) EXPECT_EQ(nodes.graph.positions[node.value], surface.vertex(NodeIndex{vertex}));
+      if (!nodes.thinned()) {
+        EXPECT_EQ(nodes.graph.positions[node.value], surface.vertex(NodeIndex{vertex}));
+      }
     }
   }
 }
