@@ -81,8 +81,11 @@ inline Bytes bytesOf(const NodeGraph& graph) {
 inline Bytes bytesOf(const MeshMetric& metric) {
   Bytes bytes;
   const std::size_t nodes = metric.graph().nodeCount();
-  for (std::size_t i = 0; i < nodes; ++i) {
-    for (std::size_t j = 0; j < nodes; ++j) appendBytes(metric.distance(NodeIndex{i}, NodeIndex{j}), bytes);
+  const std::size_t step = 1 + nodes / 4096;  // all pairs of a large graph do not fit into memory
+  for (std::size_t i = 0; i < nodes; i += step) {
+    for (std::size_t j = 0; j < nodes; j += step) {
+      appendBytes(metric.distance(NodeIndex{i}, NodeIndex{j}), bytes);
+    }
   }
   return bytes;
 }
