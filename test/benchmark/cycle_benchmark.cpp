@@ -6,8 +6,8 @@
 // The arm of the demo scenes moves along its path; every joint of another robot sways. Poses follow each
 // other by a period, but the program does not wait for it: a cycle is late when it takes longer. Every pair
 // has all its niches. --share is the cycle's budget as a share of the period; 0: no end. A row is a number of
-// threads: pairs of the scene and, a cycle, pairs within their cutoff; cycles, late ones; milliseconds of a
-// cycle: mean, 99th percentile, longest; of the lists of pairs within their cutoff the share that is
+// threads: pairs that ever were near and, a cycle, pairs within their cutoff; cycles, late ones; milliseconds
+// of a cycle: mean, 99th percentile, longest; of the lists of pairs within their cutoff the share that is
 // complete; of the cycles the share in which all are; how many cycles a pair was without a complete list at
 // most. With --pairs, each pair that ever waited: its cycles, those without a complete list, its longest
 // wait.
@@ -16,6 +16,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -67,7 +68,7 @@ void measure(const MovingScene& moving, std::uint32_t threads, const Settings& s
   SceneState state = joints.startState();
   const double period = 1.0 / settings.rate;
   const auto cycles = static_cast<std::size_t>(std::lround(settings.seconds * settings.rate));
-  std::vector<Waits> waits(tracker.pairs().size());
+  std::map<std::string, Waits> waits;  // of every pair that ever was near, by name
   std::vector<double> milliseconds;
   std::size_t whole = 0;
   moving.move(0.0, joints, positions);
@@ -85,22 +86,21 @@ void measure(const MovingScene& moving, std::uint32_t threads, const Settings& s
     const double taken = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
     milliseconds.push_back(taken);
     bool are_whole = true;
-    for (std::size_t i = 0; i < waits.size(); ++i) {
-      if (!waits[i].add(*tracker.pairs()[i])) are_whole = false;
+    for (const auto& pair : tracker.pairs()) {
+      if (!waits[pair->origin->name].add(*pair)) are_whole = false;
     }
     whole += are_whole ? 1 : 0;
   }
   std::size_t lists = 0;
   std::size_t incomplete = 0;
   std::size_t longest = 0;
-  for (std::size_t i = 0; i < waits.size(); ++i) {
-    lists += waits[i].lists;
-    incomplete += waits[i].incomplete;
-    longest = std::max(longest, waits[i].longest);
-    if (!settings.prints_pairs || waits[i].incomplete == 0) continue;
-    std::printf("%s: %zu of %zu lists incomplete, at most %zu in a row\n",
-                tracker.pairs()[i]->origin->name.c_str(), waits[i].incomplete, waits[i].lists,
-                waits[i].longest);
+  for (const auto& [name, pair] : waits) {
+    lists += pair.lists;
+    incomplete += pair.incomplete;
+    longest = std::max(longest, pair.longest);
+    if (!settings.prints_pairs || pair.incomplete == 0) continue;
+    std::printf("%s: %zu of %zu lists incomplete, at most %zu in a row\n", name.c_str(), pair.incomplete,
+                pair.lists, pair.longest);
   }
   const auto late = std::count_if(milliseconds.begin(), milliseconds.end(),
                                   [&](double taken) { return taken > 1e3 * period; });
