@@ -103,26 +103,27 @@ def queries(scenes, folder, build):
 
 
 def lists_of(path):
-    """Of each pose, its niches' points, six coordinates each."""
+    """Of each pose, its niches: six coordinates of the points, and how far a segment or patch reaches from them."""
     lists = {}
     with open(path, newline="") as stream:
         for row in csv.DictReader(stream):
-            lists.setdefault(row["index"], []).append([float(row[name]) for name in ("ax", "ay", "az", "bx", "by", "bz")])
+            lists.setdefault(row["index"], []).append(
+                [float(row[name]) for name in ("ax", "ay", "az", "bx", "by", "bz")] + [0.5 * float(row["extent"] or 0)])
     return lists
 
 
-def is_found(niche, niches, tolerance):
-    return any(math.dist(niche[:3], other[:3]) <= tolerance and math.dist(niche[3:], other[3:]) <= tolerance
-               for other in niches)
+def agree(niche, truth, tolerance, on_patch):
+    tolerance += truth[6] * on_patch
+    return math.dist(niche[:3], truth[:3]) <= tolerance and math.dist(niche[3:6], truth[3:6]) <= tolerance
 
 
-def recall_and_precision(path, truth_path, tolerance):
-    """Sums over the poses that have niches: (found shares of the truth, poses, right shares of the list, poses)."""
+def recall_and_precision(path, truth_path, tolerance, on_patch):
+    """For each pose that has niches: the found share of the truth, and the right share of the list."""
     found, truth = lists_of(path), lists_of(truth_path)
-    recalls = [sum(is_found(niche, found.get(pose, []), tolerance) for niche in niches) / len(niches)
-               for pose, niches in truth.items()]
-    precisions = [sum(is_found(niche, truth.get(pose, []), tolerance) for niche in niches) / len(niches)
-                  for pose, niches in found.items()]
+    recalls = [sum(any(agree(other, niche, tolerance, on_patch) for other in found.get(pose, [])) for niche in niches)
+               / len(niches) for pose, niches in truth.items()]
+    precisions = [sum(any(agree(niche, other, tolerance, on_patch) for other in truth.get(pose, [])) for niche in niches)
+                  / len(niches) for pose, niches in found.items()]
     return recalls, precisions
 
 
@@ -155,7 +156,7 @@ def judge(scenes, folder, builds, seeds, jobs):
                 stem = os.path.join(kept, "%s_%s%s_%d" % (name, level, "_tracked" * tracked, seed))
                 todo.append(query(scenes, name, level, tracked, stem, True, build) + ["--seed", str(seed)])
                 truth = os.path.join(folder, side, "distance_query", "%s_certified_niches_list.csv" % name)
-                lists.append((stem + "_list.csv", truth, UNPROVEN[level] * diameters[name]))
+                lists.append((stem + "_list.csv", truth, UNPROVEN[level] * diameters[name], level == "nodes"))
             with ThreadPoolExecutor(jobs) as pool:
                 failed = [output for status, output in pool.map(run, todo) if status != 0]
             if failed:

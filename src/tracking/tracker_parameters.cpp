@@ -7,7 +7,7 @@ namespace concave_distance {
 // Chosen on every second of the benchmark pairs and checked on the others (doc/results/tuning.md).
 TrackerParameters::TrackerParameters() {
   cold.population_size = 60;
-  cold.max_generations = 80;
+  cold.max_generations = 40;
   cold.crossover_probability = 1.0;
   cold.exchange_probability = 1.0;
   cold.random_immigrants = 20;
