@@ -14,8 +14,6 @@
 namespace concave_distance::detail {
 namespace {
 
-using SourcePair = std::pair<std::size_t, std::size_t>;  // the lesser number first
-
 std::vector<SourcePair> filteredPairs(const SceneParts& parts) {
   std::map<std::string, std::size_t> source_of_name;
   for (std::size_t i = 0; i < parts.sources.size(); ++i) source_of_name[parts.sources[i].name] = i;
@@ -48,19 +46,21 @@ std::size_t countRigidPairs(const SceneParts& parts, const PairRules& rules) {
 
 }  // namespace
 
-void filterPairs(const SceneParts& parts, Scene& scene) {
+std::vector<SourcePair> filterPairs(const SceneParts& parts, Scene& scene) {
+  std::vector<SourcePair> pairs = filteredPairs(parts);
   std::vector<std::pair<std::uint64_t, std::uint64_t>> filtered;
-  for (const auto& [a, b] : filteredPairs(parts)) {
+  for (const auto& [a, b] : pairs) {
     filtered.emplace_back(std::minmax(parts.sources[a].serial, parts.sources[b].serial));
   }
   std::sort(filtered.begin(), filtered.end());
   scene.rules.filtered = std::make_shared<const decltype(filtered)>(std::move(filtered));
+  return pairs;
 }
 
-void noteFilteredPairs(const SceneParts& parts, Scene& scene) {
+void noteFilteredPairs(const SceneParts& parts, const std::vector<SourcePair>& filtered, Scene& scene) {
   std::map<std::string, std::size_t> counts;
   std::size_t rigid = countRigidPairs(parts, scene.rules);
-  for (const auto& [a, b] : filteredPairs(parts)) {
+  for (const auto& [a, b] : filtered) {
     if (!scene.rules.of(a, b).is_watched) continue;
     const std::string reason = parts.filterReason(a, b);
     const bool is_rigid = parts.rigid.areJoined(parts.sources[a].frame, parts.sources[b].frame);

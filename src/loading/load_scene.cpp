@@ -81,7 +81,7 @@ void noteOpenBodies(Scene& scene) {
   for (std::size_t i = 0; i < scene.rules.list.size(); ++i) {
     const PairRule& rule = scene.rules.list[i];
     if (rule.is_watched && settingsOf(scene, rule).effects.normal_force)
-      with_force = with_force | scene.rules.bodiesOf(i);
+      with_force |= scene.rules.bodiesOf(i);
   }
   for (const std::size_t i : with_force.indices()) {
     if (isOpen(scene.bodies[i])) noteOpen(scene, scene.bodies[i], "its pairs have");

@@ -80,9 +80,9 @@ class Outline {
     }
     validateRules();
     listNamedPairs();
-    filterPairs(parts_, scene_);
+    const std::vector<SourcePair> filtered = filterPairs(parts_, scene_);
     for (const auto& sides : spec_.disabled) disable(sides);
-    noteFilteredPairs(parts_, scene_);
+    noteFilteredPairs(parts_, filtered, scene_);
     for (const auto& [name, sources] : selector_.groups()) {
       std::vector<std::string>& members = scene_.groups[name];
       for (const std::size_t source : sources) members.push_back(parts_.sources[source].name);
@@ -172,7 +172,7 @@ class Outline {
     }
   }
 
-  // What entries say of some pairs shows only when all have been laid over one another.
+  // A later entry may change what an earlier one says of some pairs, so rules are checked when all are made.
   void validateRules() const {
     for (const PairRule& rule : scene_.rules.list) {
       const std::size_t earlier = rule.earlier.first();

@@ -51,7 +51,7 @@ std::vector<std::shared_ptr<const BodySet>> rigidBodiesOf(const Scene& scene) {
   return rigid;
 }
 
-// Returns whether the pair is left out or listed, whatever its rule says.
+// Returns whether a filter or an attachment leaves the pair out, or the scene lists it: then no rule decides.
 bool isException(const Scene& scene, std::size_t earlier, std::size_t later) {
   const SceneBody& a = scene.bodies[earlier];
   const SceneBody& b = scene.bodies[later];

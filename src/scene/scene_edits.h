@@ -31,7 +31,7 @@ AddedPairs appendBody(Scene& scene, SceneBody body, const PairPartners& partners
 std::vector<std::string> removeBody(Scene& scene, const std::string& name, bool allow_robot_link = false);
 /// Appends it without the names of its pairs.
 void takeOutBody(Scene& scene, const std::string& name, bool allow_robot_link);
-/// Takes out the bodies that are marked, one entry for each, whatever is attached to them.
+/// Takes out the bodies that are marked, one entry for each. Bodies attached to them do not prevent it.
 void takeOutBodies(Scene& scene, const std::vector<bool>& gone);
 
 /// Returns the names of the pairs of a body, 1000 at most of those by rule.

@@ -71,7 +71,7 @@ TEST(BodySet, IsWhatFlagsSay) {
   }
 }
 
-/// What is said of one pair, kept for each pair by itself.
+/// Keeps the settings of one pair, as an oracle that has no rules.
 struct Said {
   bool is_watched = false;
   bool is_enabled = true;

@@ -21,8 +21,9 @@ class BodySet {
   }
   bool empty() const { return words_.empty(); }
   std::size_t size() const;
-  /// Of a set that is not empty.
+  /// Returns the lowest index; the set must not be empty.
   std::size_t first() const;
+  /// Returns the highest index; the set must not be empty.
   std::size_t last() const;
   /// Returns the indices in ascending order.
   std::vector<std::size_t> indices() const;

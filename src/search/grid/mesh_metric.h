@@ -28,7 +28,7 @@ class MeshMetric {
     return node_count * node_count * (sizeof(float) + sizeof(std::uint16_t));
   }
   const NodeGraph& graph() const { return *graph_; }
-  /// Whether the matrices hold a choice of the nodes.
+  /// Returns whether the matrices hold fewer nodes than the graph has.
   bool isThinned() const { return !owner_.empty(); }
   /// delta(from, to), metres; infinity between shells. O(1).
   double distance(NodeIndex from, NodeIndex to) const {

@@ -9,7 +9,7 @@
 namespace concave_distance {
 namespace {
 
-/// Of the refined triangles at each node, the original one of the first.
+/// Returns for each node the original triangle of the first refined triangle at it.
 std::vector<TriangleIndex> originalTriangles(const RefinedMesh& refined) {
   std::vector<TriangleIndex> original(refined.mesh.vertexCount());
   for (std::size_t t = refined.mesh.triangleCount(); t-- > 0;) {

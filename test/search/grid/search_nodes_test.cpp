@@ -42,7 +42,7 @@ RC_GTEST_PROP(SearchNodes, LieOnTheirTriangleAndNowhereFarApart, ()) {
   }
 }
 
-// What level `nodes` states: an overestimate of at most (h_A + h_B) / sqrt(3) is h / sqrt(3) for each body.
+// Level `nodes` overestimates by at most (h_A + h_B) / sqrt(3): each body contributes h / sqrt(3).
 RC_GTEST_PROP(SearchNodes, AreWithinAnEdgeOverRootThreeOfEveryPoint, ()) {
   const SurfaceMesh surface = *test::anySurface();
   const double limit = *rc::gen::inRange(10, 50) / 100.0 * surface.diameter();

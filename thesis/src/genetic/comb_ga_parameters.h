@@ -17,7 +17,7 @@ enum class MatingMethod : std::uint8_t {
   Genotypic
 };
 
-/// What keeps several niches in a population; the core's search has sharing.
+/// Selects the method that keeps several niches in a population; the core's search has sharing.
 enum class NichingScheme : std::uint8_t {
   None,
   Sharing,
